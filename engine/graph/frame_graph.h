@@ -1,0 +1,69 @@
+// A frame as a list of passes that bind buffers to kernels. Binding declares the access; schedule() derives the
+// barriers. Nothing is reordered.
+//
+//     graph.pass(scatter).read(rays).read(hits).readWrite(radiance).write(nextRays).push(params).dispatch(count);
+//
+// Bindings are numbered by the order of the read/write calls, and checked against the kernel's own: count, and
+// whether each may be read or written.
+#pragma once
+
+#include "engine/gpu/buffer.h"
+#include "engine/gpu/kernel.h"
+#include "engine/gpu/profiler.h"
+#include "engine/graph/schedule.h"
+#include <memory>
+#include <span>
+
+namespace irradia {
+
+class FrameGraph;
+
+class Pass {
+public:
+    Pass& read(BufferRange range);
+    Pass& write(BufferRange range);
+    Pass& readWrite(BufferRange range);
+    template <typename T> Pass& push(const T& params) {
+        static_assert(std::is_trivially_copyable_v<T> && sizeof(T) <= 128);
+        return pushBytes(std::as_bytes(std::span<const T, 1>(&params, 1)));
+    }
+
+    // Ends the pass. `items` invocations, rounded up to whole workgroups: the kernel guards the rest.
+    void dispatch(uint64_t items);
+    void dispatchGroups(uint32_t groups);
+    // Group counts from three uint32 at `arguments`.
+    void dispatchIndirect(BufferRange arguments);
+
+private:
+    friend class FrameGraph;
+    Pass(FrameGraph& graph, size_t index) : graph_(graph), index_(index) {}
+    Pass& bind(BufferRange range, bool read, bool write);
+    Pass& pushBytes(std::span<const std::byte> bytes);
+    FrameGraph& graph_;
+    size_t index_;
+};
+
+class FrameGraph {
+public:
+    explicit FrameGraph(Device& device, Profiler* profiler = nullptr);
+    ~FrameGraph();
+
+    Pass pass(const Kernel& kernel);                          // named as the kernel
+    Pass pass(const Kernel& kernel, const std::string& name); // a second use under its own row
+    void fill(BufferRange range, uint32_t value);
+    void copy(BufferRange from, BufferRange to);
+
+    // A place where a slice may end. execute() submits as many passes as took about 100 ms when they last ran
+    // (which changes no result) and waits for each submission, so that no watchdog sees a long one.
+    void cut();
+
+    // Records, submits, waits; then the graph is empty again. Kernels and buffers must live until it returns.
+    void execute();
+
+private:
+    friend class Pass;
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+} // namespace irradia

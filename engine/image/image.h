@@ -1,0 +1,50 @@
+// Pictures in memory and on disk. A file is written as a temporary beside its target, synced and renamed:
+// a killed run leaves the old file or the new one.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <glm/glm.hpp>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace irradia {
+
+// Named float channels of one size, first row on top, and string attributes: what an EXR file holds.
+struct LayeredImage {
+    int width = 0;
+    int height = 0;
+    std::map<std::string, std::vector<float>> channels; // "R", "G", "B", "Albedo.R", "N.X", "Variance.R", ...
+    std::map<std::string, std::string> attributes;      // "irradia.seed" -> "1"
+
+    void setRgb(const std::string& layer, std::span<const glm::vec3> pixels, const char* names = "RGB");
+    std::vector<glm::vec3> rgb(const std::string& layer = "") const; // throws BadData if a channel is missing
+};
+
+// 8-bit RGBA, 4 bytes a pixel, first row on top.
+struct Rgba8Image {
+    int width = 0;
+    int height = 0;
+    std::vector<uint8_t> pixels;
+};
+
+// EXR scanlines, float, ZIP. Throws Error (Io, NotFound, BadData) naming the file.
+void writeExr(const std::filesystem::path& file, const LayeredImage& image);
+LayeredImage readExr(const std::filesystem::path& file);
+
+// Radiance .hdr (RGBE, plain and run-length coded).
+LayeredImage readHdr(const std::filesystem::path& file);
+
+// PNG and JPEG from memory, told apart by their first bytes; `name` is used in errors. At most 2^26 pixels.
+Rgba8Image decodeImage(std::span<const uint8_t> bytes, const std::string& name);
+void writePng(const std::filesystem::path& file, const Rgba8Image& image);
+
+// Exposure 1, sRGB curve, clamped: the picture --png writes.
+Rgba8Image toDisplay(int width, int height, std::span<const glm::vec3> radiance);
+
+// Writes bytes atomically (temporary, fsync, rename). Throws Error(Io).
+void writeFileAtomically(const std::filesystem::path& file, std::span<const uint8_t> bytes);
+
+} // namespace irradia

@@ -1,0 +1,23 @@
+// Error of a test picture t against a reference r, over linear radiance (design: what `compare` prints).
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+
+namespace irradia {
+
+struct ImageMetrics {
+    double mse = 0;       // mean of (t - r)^2 over pixels and channels
+    double relMse = 0;    // mean of (t - r)^2 / (r^2 + 0.01)
+    double mape = 0;      // mean of |t - r| / (|r| + 0.01)
+    double meanRatio = 0; // mean luminance of t / mean luminance of r
+    double flip = 0;      // mean LDR-FLIP (Andersson et al. 2020) of the pictures as toDisplay shows them
+    uint64_t nonFinite = 0; // non-finite values in t; they are left out of the means
+};
+
+// Both spans hold width * height pixels. r must be finite; throws Error(BadData) otherwise.
+ImageMetrics compareImages(int width, int height, std::span<const glm::vec3> test,
+                           std::span<const glm::vec3> reference);
+
+} // namespace irradia

@@ -1,0 +1,26 @@
+// Reads a glTF 2.0 scene (.gltf or .glb) through tinygltf behind range checks, and the files beside it.
+#pragma once
+
+#include "engine/scene/scene.h"
+#include <filesystem>
+
+namespace irradia {
+
+// Throws Error: NotFound when the file is missing, BadData with one sentence that names the file and the thing
+// (accessor, node, extension) that cannot be used. Non-finite and degenerate triangles are dropped and counted.
+Scene loadScene(const std::filesystem::path& file);
+
+// An environment from "R,G,B" (a constant), or an .hdr or .exr picture. Throws Error as loadScene.
+Environment loadEnvironment(const std::string& text);
+
+// A camera file: {"camera": {"position", "look_at", "up", "vfov_deg"}, "env": path | [r,g,b] | null}.
+struct CameraFile {
+    Camera camera;
+    std::string environment; // what loadEnvironment takes, with the path resolved beside the file; empty if none
+};
+CameraFile loadCameraFile(const std::filesystem::path& file);
+
+// The camera named by --camera: a name, an index or a .json file; empty = the scene's first, else a framing.
+CameraFile chooseCamera(const Scene& scene, const std::string& choice);
+
+} // namespace irradia

@@ -1,0 +1,114 @@
+// A scene as plain data: what the loader produces, the GPU upload and the CPU reference consume.
+// World space throughout: nodes and instances are already applied. Units are those of the file; radiance is
+// W/(sr m^2) as glTF's emissiveFactor x emissiveStrength states it; colours are linear Rec. 709.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+namespace irradia {
+
+// An 8-bit picture as stored in the file (sRGB or linear by its use): 4 bytes RGBA a texel, first row = v 0.
+struct TextureImage {
+    std::string name;
+    int width = 0;
+    int height = 0;
+    std::vector<uint8_t> rgba; // width * height * 4
+};
+
+enum class Wrap : uint32_t { Repeat = 0, MirroredRepeat = 1, ClampToEdge = 2 };
+
+// A material's use of a picture: bilinear at texel centres (u * width - 1/2), wrapped by texel.
+struct TextureRef {
+    int image = -1; // index into Scene::images, -1 = none (the factor alone counts)
+    int uvSet = 0;  // 0 or 1
+    Wrap wrapS = Wrap::Repeat;
+    Wrap wrapT = Wrap::Repeat;
+};
+
+// glTF 2.0 metallic-roughness with KHR_materials_emissive_strength, _specular and _ior (Appendix B's terms).
+struct Material {
+    std::string name;
+    glm::vec3 baseColor{1.0f};
+    float metallic = 1.0f;
+    float roughness = 1.0f; // perceptual; alpha = roughness^2
+    float normalScale = 1.0f;
+    glm::vec3 emission{0.0f}; // emissiveFactor * emissiveStrength, radiance
+    float ior = 1.5f;
+    float specular = 1.0f;         // KHR_materials_specular, specularFactor
+    glm::vec3 specularColor{1.0f}; // KHR_materials_specular, specularColorFactor
+    bool doubleSided = false;      // false: emits from its front face only; it blocks and scatters on both sides
+
+    TextureRef baseColorTexture;         // sRGB, times baseColor
+    TextureRef metallicRoughnessTexture; // linear, G times roughness, B times metallic
+    TextureRef normalTexture;            // linear, tangent space, xy times normalScale
+    TextureRef emissiveTexture;          // sRGB, times emission
+    TextureRef specularTexture;          // linear, A times specular
+    TextureRef specularColorTexture;     // sRGB, times specularColor
+};
+
+struct Vertex {
+    glm::vec3 position{0.0f};
+    glm::vec3 normal{0.0f};  // unit; the flat face normal where the file has none
+    glm::vec4 tangent{0.0f}; // unit xyz, w = handedness (bitangent = w * cross(normal, tangent)); 0 if unused
+    glm::vec2 uv[2] = {glm::vec2(0.0f), glm::vec2(0.0f)};
+};
+
+struct Triangle {
+    glm::uvec3 vertex{0}; // indices into Scene::vertices, counter-clockwise seen from the front
+    uint32_t material = 0;
+};
+
+// Pinhole camera; looks along `forward`; aspect comes from the image.
+struct Camera {
+    std::string name;
+    glm::vec3 position{0.0f};
+    glm::vec3 forward{0.0f, 0.0f, -1.0f}; // unit
+    glm::vec3 up{0.0f, 1.0f, 0.0f};       // unit, orthogonal to forward
+    float verticalFov = 0.7f;             // radians
+};
+
+// Light from outside: an equirectangular picture (u = atan2(z, x) / 2 pi + 1/2, v = acos(y) / pi, first row = +Y,
+// bilinear, wraps in u and clamps in v), or a constant.
+struct Environment {
+    glm::vec3 constant{0.0f}; // radiance where there is no picture
+    int width = 0;
+    int height = 0;
+    std::vector<glm::vec3> texels; // width * height, radiance; empty = constant
+
+    bool isBlack() const { return texels.empty() && constant == glm::vec3(0.0f); }
+};
+
+// What the loader left out or changed, counted; shown to the user.
+struct SceneNotes {
+    uint64_t nonFiniteTriangles = 0;
+    uint64_t degenerateTriangles = 0;
+    std::vector<std::string> warnings;
+};
+
+struct Scene {
+    std::string name;
+    std::vector<Vertex> vertices;
+    std::vector<Triangle> triangles;
+    std::vector<Material> materials; // at least one when there are triangles
+    std::vector<TextureImage> images;
+    std::vector<Camera> cameras;
+    Environment environment;
+    SceneNotes notes;
+    uint64_t contentHash = 0; // FNV-1a of the file's bytes, recorded in outputs
+};
+
+struct Bounds {
+    glm::vec3 lower{0.0f};
+    glm::vec3 upper{0.0f};
+};
+
+// Box of all triangle corners; the zero box for an empty scene.
+Bounds sceneBounds(const Scene& scene);
+
+// The camera that frames the scene's bounds from +Z, slightly above; used when a scene has none.
+Camera framingCamera(const Bounds& bounds);
+
+} // namespace irradia

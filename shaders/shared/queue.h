@@ -1,0 +1,31 @@
+// The queues of the wavefront: work items as records, their counters and indirect arguments.
+#ifndef IRRADIA_SHARED_QUEUE_H
+#define IRRADIA_SHARED_QUEUE_H
+#include "shared/types.h"
+SHARED_BEGIN
+
+// RayQueue item, 3 records:
+//   0: origin xyz, path index (uint)          path index = slot of the path's PixelSampleState in the wave
+//   1: direction xyz (unit), pdf of the BSDF sample that made it (solid angle; 0 for camera rays)
+//   2: throughput beta rgb, unused
+SHARED_CONST uint kRayRecords = 3u;
+
+// Hit, 1 record per RayQueue slot: t (float), primitive (index into Scene::triangles, kNoPrimitive = escaped),
+// barycentrics u, v (floats): the point is p0 + u e1 + v e2.
+SHARED_CONST uint kNoPrimitive = 0xffffffffu;
+
+// ShadowRayQueue item, 3 records:
+//   0: origin xyz, t max (float)
+//   1: direction xyz (unit), path index (uint)
+//   2: contribution rgb if unoccluded, unused
+// Visibility, 1 uint per ShadowRayQueue slot: 1 = unoccluded, 0 = occluded.
+SHARED_CONST uint kShadowRayRecords = 3u;
+
+// QueueCounters: a storage buffer of uints.
+SHARED_CONST uint kRayCounter = 0u;       // + 0 or 1: items in the current and the next RayQueue
+SHARED_CONST uint kShadowRayCounter = 2u; // items in the ShadowRayQueue
+SHARED_CONST uint kTracedRays = 3u;       // rays traced so far this frame, all kinds (statistics)
+SHARED_CONST uint kCounters = 8u;
+
+SHARED_END
+#endif

@@ -1,0 +1,18 @@
+// Parameters of the tracing kernels intersect_closest and intersect_shadow.
+//   intersect_closest: 0 bvh (records), 1 rays (RayQueue), 2 counters, 3 hits (records)
+//   intersect_shadow:  0 bvh (records), 1 shadow rays (ShadowRayQueue), 2 counters, 3 visibility (words)
+#ifndef IRRADIA_SHARED_TRACE_H
+#define IRRADIA_SHARED_TRACE_H
+#include "shared/types.h"
+SHARED_BEGIN
+
+// A subgroup owns kRaysPerLane x subgroup size consecutive rays of the queue and refills its lanes from them.
+SHARED_CONST uint kRaysPerLane = 32u;
+
+struct TraceParams {
+    uint counter; // which of the QueueCounters holds the number of rays
+    uint rootBase; // first node record index of the root (see shared/bvh.h)
+};
+
+SHARED_END
+#endif

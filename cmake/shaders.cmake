@@ -2,7 +2,8 @@
 # views and through storage buffers. DIR/NAME.comp is declared in "kernels/<last folder of DIR>.h" as
 # irradia::kernels::NAME (a KernelSource).
 file(GLOB IRRADIA_SHADER_INCLUDES CONFIGURE_DEPENDS
-  ${CMAKE_SOURCE_DIR}/shaders/shared/*.h ${CMAKE_SOURCE_DIR}/shaders/lib/*.glsl ${CMAKE_SOURCE_DIR}/shaders/nrc/*.glsl)
+  ${CMAKE_SOURCE_DIR}/shaders/shared/*.h ${CMAKE_SOURCE_DIR}/shaders/lib/*.glsl ${CMAKE_SOURCE_DIR}/shaders/path/*.glsl
+  ${CMAKE_SOURCE_DIR}/shaders/nrc/*.glsl)
 
 function(irradia_kernels target dir)
   get_filename_component(group ${dir} NAME)

@@ -1,7 +1,6 @@
 // Head of every kernel: workgroup and subgroup size (constants 0 and 1, set by engine/gpu/kernel) and record access.
 // Records are read and written through texel views (RECORDS_IN_TEXEL, the fast form on lavapipe: one bounds-checked
 // 128-bit load per lane) or through storage buffers (RECORDS_IN_STORAGE, where texel views are too small).
-#extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_ballot : require

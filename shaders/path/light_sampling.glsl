@@ -1,0 +1,61 @@
+// Light sampling: emissive triangles by power, the environment by its texels, both through alias tables (Vose 1991:
+// constant time whatever the number of lights). Bindings: those of emitters.glsl and environment.glsl and
+// `environmentAlias` (records).
+#ifndef IRRADIA_PATH_LIGHT_SAMPLING_GLSL
+#define IRRADIA_PATH_LIGHT_SAMPLING_GLSL
+#include "lib/rng.glsl"
+#include "path/emitters.glsl"
+#include "path/environment.glsl"
+
+struct LightSample {
+    vec3 direction; // unit, towards the light
+    float tMax;     // up to just before it
+    vec3 radiance;
+    float pdf;      // per solid angle, the choice of the light included; 0 = nothing to add
+};
+
+const float kFarAway = 1e30;
+
+LightSample sampleEnvironment(uvec4 random) {
+    uint count = params.environmentWidth * params.environmentHeight;
+    uint texel = uniformIndex(random.x, count);
+    uvec4 entry = loadRecord(environmentAlias, texel);
+    texel = unitFloat(random.y) < uintBitsToFloat(entry.x) ? texel : entry.y;
+    uint row = texel / params.environmentWidth;
+    uint column = texel - row * params.environmentWidth;
+    vec2 uv = (vec2(column, row) + vec2(unitFloat(random.z), unitFloat(random.w))) /
+              vec2(params.environmentWidth, params.environmentHeight);
+    return LightSample(directionOfEquirect(uv), kFarAway, environmentRadiance(uv), environmentPdf(uv));
+}
+
+LightSample sampleTriangleLight(vec3 origin, uvec4 random) {
+    uint light = uniformIndex(random.x, params.lightCount);
+    uvec4 entry = loadRecord(lights, light);
+    light = unitFloat(random.y) < uintBitsToFloat(entry.x) ? light : entry.y;
+    uint primitive = loadRecord(lights, light).z;
+    TriangleRecord tri = loadTriangle(primitive);
+    vec2 b = sampleTriangle(vec2(unitFloat(random.z), unitFloat(random.w)));
+    vec3 to = tri.p0 + b.x * tri.e1 + b.y * tri.e2 - origin;
+    float distance = length(to);
+    vec3 direction = to / max(distance, 1e-30);
+    vec3 normal = cross(tri.e1, tri.e2);
+    float doubleArea = length(normal);
+    float cosine = -dot(normal, direction) / max(doubleArea, 1e-30); // > 0: seen from the front
+    vec3 radiance = emittedRadiance(tri.material, cosine > 0.0, attributesFor(kEmissiveTexture, primitive, b));
+    float pdf = abs(cosine) > 1e-6 ? trianglePdf(light, 0.5 * doubleArea, distance, abs(cosine)) : 0.0;
+    return LightSample(direction, distance * (1.0 - 1e-4), radiance, pdf);
+}
+
+// One light sample for a vertex: `random` drives it, `choice` in [0, 1) picks the environment or the triangles.
+LightSample sampleLight(vec3 origin, uvec4 random, float choice) {
+    if (kHasEnvironment && kHasEmitters) {
+        LightSample a = sampleEnvironment(random);
+        LightSample b = sampleTriangleLight(origin, random);
+        if (choice < params.environmentProbability) return a;
+        return b;
+    }
+    if (kHasEnvironment) return sampleEnvironment(random);
+    return sampleTriangleLight(origin, random);
+}
+
+#endif

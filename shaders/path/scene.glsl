@@ -1,0 +1,93 @@
+// Access to the scene's records (shared/scene.h). The kernel includes this after declaring the bindings it needs:
+// `geometry`, `attributes`, `materials`, `textures` (records) and `texels` (halves).
+#ifndef IRRADIA_PATH_SCENE_GLSL
+#define IRRADIA_PATH_SCENE_GLSL
+#include "lib/math.glsl"
+#include "path/needs.glsl"
+#include "shared/scene.h"
+
+// The triangle's plane and what it is made of.
+struct TriangleRecord {
+    vec3 p0;
+    vec3 e1;
+    vec3 e2;
+    uint material;
+    uint light;
+    uint handedness;
+};
+
+TriangleRecord loadTriangle(uint primitive) {
+    uint at = primitive * kGeometryRecords;
+    uvec4 r0 = loadRecord(geometry, at);
+    uvec4 r1 = loadRecord(geometry, at + 1u);
+    uvec4 r2 = loadRecord(geometry, at + 2u);
+    return TriangleRecord(uintBitsToFloat(r0.xyz), uintBitsToFloat(r1.xyz), uintBitsToFloat(r2.xyz), r0.w, r1.w, r2.w);
+}
+
+// Texture coordinates of both sets at barycentrics (u, v), and the tangents' codes.
+struct TriangleAttributes {
+    vec2 uv[2];
+    uvec3 tangents;
+};
+
+TriangleAttributes loadAttributes(uint primitive, vec2 b) {
+    uint at = primitive * kAttributeRecords;
+    vec4 a0 = uintBitsToFloat(loadRecord(attributes, at));
+    vec4 a1 = uintBitsToFloat(loadRecord(attributes, at + 1u));
+    vec4 a2 = uintBitsToFloat(loadRecord(attributes, at + 2u));
+    uvec4 a3 = loadRecord(attributes, at + 3u);
+    float b0 = 1.0 - b.x - b.y;
+    TriangleAttributes result;
+    result.uv[0] = b0 * a0.xy + b.x * a0.zw + b.y * a1.xy;
+    result.uv[1] = b0 * a1.zw + b.x * a2.xy + b.y * a2.zw;
+    result.tangents = a3.xyz;
+    return result;
+}
+
+int wrapTexel(int i, int size, uint mode) {
+    int repeated = i - size * int(floor(float(i) / float(size)));
+    repeated = clamp(repeated, 0, size - 1); // the division rounds at large i
+    int period = 2 * size;
+    int mirrored = i - period * int(floor(float(i) / float(period)));
+    mirrored = clamp(mirrored < size ? mirrored : period - 1 - mirrored, 0, size - 1);
+    int clamped = clamp(i, 0, size - 1);
+    return mode == 0u ? repeated : (mode == 1u ? mirrored : clamped);
+}
+
+// Bilinear at texel centres; (1, 1, 1, 1) for kNoTexture.
+vec4 sampleTexture(uint code, TriangleAttributes a) {
+    bool none = code == kNoTexture;
+    uvec4 texture = loadRecord(textures, none ? 0u : code >> 1u);
+    ivec2 size = max(ivec2(texture.yz), ivec2(1));
+    vec2 uv = (code & 1u) == 0u ? a.uv[0] : a.uv[1];
+    // A non-finite or absurd coordinate must not become an undefined integer.
+    vec2 x = clamp(uv * vec2(size) - 0.5, vec2(-1e6), vec2(1e6));
+    vec2 corner = floor(x);
+    vec2 f = x - corner;
+    ivec2 i = ivec2(corner);
+    uint wrapS = texture.w & 3u;
+    uint wrapT = (texture.w >> 2u) & 3u;
+    int x0 = wrapTexel(i.x, size.x, wrapS);
+    int x1 = wrapTexel(i.x + 1, size.x, wrapS);
+    int y0 = wrapTexel(i.y, size.y, wrapT) * size.x + int(texture.x);
+    int y1 = wrapTexel(i.y + 1, size.y, wrapT) * size.x + int(texture.x);
+    vec4 top = mix(loadHalves(texels, y0 + x0), loadHalves(texels, y0 + x1), f.x);
+    vec4 bottom = mix(loadHalves(texels, y1 + x0), loadHalves(texels, y1 + x1), f.x);
+    return none ? vec4(1.0) : mix(top, bottom, f.y);
+}
+
+// Radiance that a triangle's front (or a double-sided one's either side) emits at texture coordinates `a`.
+vec3 emittedRadiance(uint material, bool front, TriangleAttributes a) {
+    uint at = material * kMaterialRecords;
+    vec3 emission = uintBitsToFloat(loadRecord(materials, at + 1u).xyz);
+    uint flags = loadRecord(materials, at + 3u).y;
+    if ((kTextureMask & kEmissiveTexture) != 0u) emission *= sampleTexture(loadRecord(materials, at + 4u).w, a).rgb;
+    return front || (flags & kMaterialDoubleSided) != 0u ? emission : vec3(0.0);
+}
+
+TriangleAttributes attributesFor(uint mask, uint primitive, vec2 b) {
+    if ((kTextureMask & mask) != 0u) return loadAttributes(primitive, b);
+    return TriangleAttributes(vec2[2](vec2(0.0), vec2(0.0)), uvec3(kNoTangent));
+}
+
+#endif

@@ -1,0 +1,84 @@
+// The shaded point of a hit: its frame and its BSDF, textures applied. Bindings as scene.glsl.
+#ifndef IRRADIA_PATH_SURFACE_GLSL
+#define IRRADIA_PATH_SURFACE_GLSL
+#include "lib/bsdf.glsl"
+#include "path/scene.glsl"
+
+struct Surface {
+    vec3 position;
+    vec3 geometricNormal; // on the side of the viewer
+    vec3 shadingNormal;   // likewise, and never facing away from the viewer
+    vec3 baseColor;
+    Bsdf bsdf;
+    float roughness;
+};
+
+const float kMinShadingCosine = 0.01; // of the viewer: interpolated and mapped normals are bent to it
+
+vec3 perturbNormal(vec3 ns, vec3 texel, float scale, TriangleAttributes a, uint handedness, vec2 b) {
+    float b0 = 1.0 - b.x - b.y;
+    vec3 t = b0 * decodeOctahedral(a.tangents.x) + b.x * decodeOctahedral(a.tangents.y) +
+             b.y * decodeOctahedral(a.tangents.z);
+    t -= ns * dot(ns, t);
+    float length2 = dot(t, t);
+    vec3 tangent = t * inversesqrt(max(length2, 1e-20));
+    vec3 bitangent = cross(ns, tangent) * ((handedness & 1u) != 0u ? -1.0 : 1.0);
+    vec3 m = texel * 2.0 - 1.0;
+    vec3 n = normalize(m.x * scale * tangent + m.y * scale * bitangent + m.z * ns);
+    bool usable = a.tangents.x != kNoTangent && length2 > 1e-12 && dot(n, n) > 0.5;
+    return usable ? n : ns;
+}
+
+Surface loadSurface(uint primitive, vec2 b, vec3 view) {
+    TriangleRecord tri = loadTriangle(primitive);
+    uvec3 normals = loadRecord(geometry, primitive * kGeometryRecords + 3u).xyz;
+    TriangleAttributes a = attributesFor(63u, primitive, b);
+
+    uint at = tri.material * kMaterialRecords;
+    vec4 m0 = uintBitsToFloat(loadRecord(materials, at));
+    vec4 m1 = uintBitsToFloat(loadRecord(materials, at + 1u));
+    vec4 m2 = uintBitsToFloat(loadRecord(materials, at + 2u));
+    vec3 base = m0.rgb;
+    float metallic = m0.w;
+    float roughness = m1.w;
+    vec3 f0 = m2.rgb;
+    float specular = m2.w;
+    float b0 = 1.0 - b.x - b.y;
+    vec3 ng = normalize(cross(tri.e1, tri.e2));
+    vec3 ns = b0 * decodeOctahedral(normals.x) + b.x * decodeOctahedral(normals.y) + b.y * decodeOctahedral(normals.z);
+    ns = dot(ns, ns) > 1e-8 ? normalize(ns) : ng;
+    if (kTextureMask != 0u) {
+        uvec4 codes = loadRecord(materials, at + 4u);
+        uvec4 codes2 = loadRecord(materials, at + 5u);
+        if ((kTextureMask & kBaseColorTexture) != 0u) base *= sampleTexture(codes.x, a).rgb;
+        if ((kTextureMask & kMetallicRoughnessTexture) != 0u) {
+            vec4 texel = sampleTexture(codes.y, a);
+            roughness *= texel.g;
+            metallic *= texel.b;
+        }
+        if ((kTextureMask & kNormalTexture) != 0u) {
+            float scale = uintBitsToFloat(loadRecord(materials, at + 3u).x);
+            vec3 bent = perturbNormal(ns, sampleTexture(codes.z, a).xyz, scale, a, tri.handedness, b);
+            ns = codes.z == kNoTexture ? ns : bent;
+        }
+        if ((kTextureMask & kSpecularTexture) != 0u) specular *= sampleTexture(codes2.x, a).a;
+        if ((kTextureMask & kSpecularColorTexture) != 0u) f0 *= sampleTexture(codes2.y, a).rgb;
+    }
+
+    bool front = dot(ng, view) > 0.0;
+    ng = front ? ng : -ng;
+    ns = front ? ns : -ns;
+    float cosine = dot(ns, view);
+    ns = cosine < kMinShadingCosine ? normalize(ns + (kMinShadingCosine - cosine) * view) : ns;
+
+    Surface s;
+    s.position = tri.p0 + b.x * tri.e1 + b.y * tri.e2;
+    s.geometricNormal = ng;
+    s.shadingNormal = ns;
+    s.baseColor = base;
+    s.roughness = clamp(roughness, 0.0, 1.0);
+    s.bsdf = makeBsdf(base, clamp(metallic, 0.0, 1.0), s.roughness, f0, specular);
+    return s;
+}
+
+#endif

@@ -1,0 +1,78 @@
+// Parameters of the path tracer's passes and the specialisation constants that fit its kernels to a scene.
+#ifndef IRRADIA_SHARED_PATH_H
+#define IRRADIA_SHARED_PATH_H
+#include "shared/types.h"
+SHARED_BEGIN
+
+// constant_id of what a scene needs (engine/path sets them; 0 and 1 are workgroup and subgroup size).
+SHARED_CONST uint kConstantEnvironment = 10u; // the environment is not black
+SHARED_CONST uint kConstantEmitters = 11u;    // there are emissive triangles
+SHARED_CONST uint kConstantTextures = 12u;    // mask of kBaseColorTexture, ...
+SHARED_CONST uint kConstantSpecular = 13u;    // some material has a specular lobe
+SHARED_CONST uint kConstantDiffuse = 14u;     // some material has a diffuse lobe
+
+// A wave is a run of consecutive pixels; path index i of the wave belongs to pixel firstPixel + i.
+struct CameraParams {
+    vec4 position; // xyz; w unused
+    vec4 forward;  // unit
+    vec4 right;    // times tan(vfov / 2) * aspect
+    vec4 up;       // times tan(vfov / 2)
+    uint width;
+    uint height;
+    uint firstPixel;
+    uint pathCount;
+    uint sampleIndex;
+    uint seed;
+    uint firstSample; // 1 = radiance starts from zero, 0 = adds to what is there
+    uint pad;
+};
+
+// One step of the loop over bounces; also what the handle_* kernels and scatter need to know of the scene.
+struct BounceParams {
+    uint depth; // number of the ray being handled; 0 = camera ray
+    uint firstPixel;
+    uint sampleIndex;
+    uint seed;
+    uint lightCount;
+    uint environmentWidth; // 1 x 1 for a constant
+    uint environmentHeight;
+    float environmentProbability; // of sampling the environment rather than the emissive triangles
+    float rayEpsilon;             // length by which origins leave their surface
+    uint maxDepth;                // the ray of this number only adds emission
+    uint queueParity;             // depth & 1: which counter of the RayQueue pair is current
+    uint pad;
+};
+
+// begin_bounce writes the indirect arguments: three uints for tracing and three for per-item passes.
+struct BeginBounceParams {
+    uint parity;
+    uint raysPerTraceGroup;
+    uint itemsPerGroup;
+    uint depth; // statistics: at 0 the shadow ray counter of the wave before is not counted
+};
+SHARED_CONST uint kTraceArguments = 0u; // offsets in uints
+SHARED_CONST uint kItemArguments = 4u;
+SHARED_CONST uint kDispatchArguments = 8u; // size in uints
+
+// The film, per pixel: FilmPixel in floats. Welford's running mean and sum of squared deviations over frames.
+SHARED_CONST uint kFilmVectors = 2u;    // vec4: mean rgb, frames; M2 rgb, unused
+SHARED_CONST uint kSurfaceVectors = 3u; // vec4 sums: albedo rgb, hits; normal xyz, z; position xyz, unused
+
+struct FilmParams {
+    uint firstPixel;
+    uint pathCount;
+    uint frame;         // frames in the film before this one
+    float sampleWeight; // 1 / samples per frame
+};
+
+struct SurfaceParams {
+    uint firstPixel;
+    uint pathCount;
+    uint pad0;
+    uint pad1;
+    vec4 cameraPosition;
+    vec4 cameraForward; // z of the surface = dot(p - position, forward)
+};
+
+SHARED_END
+#endif

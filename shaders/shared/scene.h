@@ -1,0 +1,56 @@
+// The scene on the GPU: records (uvec4) in texel-viewable buffers. Written by engine/scene/gpu_scene, read by
+// shaders/path/scene.glsl. Directions are octahedral, two 16-bit snorms in a uint (Cigolle et al. 2014).
+#ifndef IRRADIA_SHARED_SCENE_H
+#define IRRADIA_SHARED_SCENE_H
+#include "shared/types.h"
+SHARED_BEGIN
+
+// Triangle geometry, world space:
+//   0: p0 xyz, material index
+//   1: e1 = p1 - p0, light index (kNoLight = does not emit)
+//   2: e2 = p2 - p0, tangent handedness (bit i set = vertex i has w < 0)
+//   3: shading normals of the three vertices (octahedral), unused
+SHARED_CONST uint kGeometryRecords = 4u;
+SHARED_CONST uint kNoLight = 0xffffffffu;
+
+// Triangle attributes, only in scenes with textures:
+//   0: uv set 0 of vertices 0 and 1;  1: uv set 0 of vertex 2, uv set 1 of vertex 0
+//   2: uv set 1 of vertices 1 and 2;  3: tangents of the three vertices (octahedral; 0 = none), unused
+SHARED_CONST uint kAttributeRecords = 4u;
+SHARED_CONST uint kNoTangent = 0x80008000u; // a code octahedral snorm encoding never makes
+
+// Material:
+//   0: base colour rgb, metallic            1: emission rgb (radiance), roughness
+//   2: dielectric F0 rgb = ((ior-1)/(ior+1))^2 * specular colour, specular factor
+//   3: normal scale, flags, unused          4: texture of base colour, metallic-roughness, normal, emissive
+//   5: texture of specular, specular colour
+// A texture is (texture record index << 1 | uv set), or kNoTexture.
+SHARED_CONST uint kMaterialRecords = 6u;
+SHARED_CONST uint kMaterialDoubleSided = 1u;
+SHARED_CONST uint kNoTexture = 0xffffffffu;
+
+// Texture, 1 record: first texel, width, height, wrap s | wrap t << 2 (0 repeat, 1 mirror, 2 clamp).
+// Texels are four 16-bit floats, linear.
+
+// Emissive triangle, 1 record, an entry of the alias table over power (Vose 1991):
+//   keep probability (float), alias (light index), primitive, probability mass of this light (float)
+// Environment texel, 1 record: radiance rgb, density = probability mass * texel count (float).
+// Environment alias table, 1 record per texel: keep probability (float), alias, unused.
+
+// Which textures any material of the scene uses (specialisation constant kTextureMask).
+SHARED_CONST uint kBaseColorTexture = 1u;
+SHARED_CONST uint kMetallicRoughnessTexture = 2u;
+SHARED_CONST uint kNormalTexture = 4u;
+SHARED_CONST uint kEmissiveTexture = 8u;
+SHARED_CONST uint kSpecularTexture = 16u;
+SHARED_CONST uint kSpecularColorTexture = 32u;
+
+// Reflectance table of the specular and diffuse lobes (engine/scene/reflectance_table): record (i, j) holds
+// A, B, C at cosine mu = (i / (kTableCosines - 1))^2 and roughness j / (kTableRoughnesses - 1), row j after row j - 1.
+SHARED_CONST uint kTableCosines = 48u;
+SHARED_CONST uint kTableRoughnesses = 32u;
+
+SHARED_CONST float kMinAlpha = 1e-3f; // GGX alpha = roughness^2 is at least this
+
+SHARED_END
+#endif

@@ -18,9 +18,12 @@ struct LayeredImage {
     int height = 0;
     std::map<std::string, std::vector<float>> channels; // "R", "G", "B", "Albedo.R", "N.X", "Variance.R", ...
     std::map<std::string, std::string> attributes;      // "irradia.seed" -> "1"
+    std::string name = "image";                         // of the file it came from, for errors
 
+    // Layer "" is R, G, B; "N" with names "XYZ" is N.X, N.Y, N.Z.
     void setRgb(const std::string& layer, std::span<const glm::vec3> pixels, const char* names = "RGB");
-    std::vector<glm::vec3> rgb(const std::string& layer = "") const; // throws BadData if a channel is missing
+    // Throws BadData naming the first channel that is missing.
+    std::vector<glm::vec3> rgb(const std::string& layer = "", const char* names = "RGB") const;
 };
 
 // 8-bit RGBA, 4 bytes a pixel, first row on top.
@@ -39,6 +42,9 @@ LayeredImage readHdr(const std::filesystem::path& file);
 
 // PNG and JPEG from memory, told apart by their first bytes; `name` is used in errors. At most 2^26 pixels.
 Rgba8Image decodeImage(std::span<const uint8_t> bytes, const std::string& name);
+
+// 8-bit RGB, or RGBA where any pixel is not opaque; tagged sRGB.
+std::vector<uint8_t> encodePng(const Rgba8Image& image);
 void writePng(const std::filesystem::path& file, const Rgba8Image& image);
 
 // Exposure 1, sRGB curve, clamped: the picture --png writes.

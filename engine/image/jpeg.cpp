@@ -1,0 +1,104 @@
+// JPEG through libjpeg-turbo, which reports errors by longjmp: the functions it may leave that way hold plain
+// data only.
+#include "engine/error.h"
+#include "engine/image/decode.h"
+#include <csetjmp>
+#include <cstdio>
+// jpeglib.h needs <cstdio> before it.
+#include <jerror.h>
+#include <jpeglib.h>
+
+namespace irradia {
+namespace {
+
+// A progressive file may repeat scans of a whole picture in a few bytes each; real ones have about ten.
+constexpr int kMaxScans = 200;
+
+struct ErrorManager {
+    jpeg_error_mgr base; // first: libjpeg hands back a pointer to it
+    std::jmp_buf jump;
+    char text[JMSG_LENGTH_MAX] = "";
+};
+
+[[noreturn]] void onError(j_common_ptr codec) {
+    auto* errors = reinterpret_cast<ErrorManager*>(codec->err);
+    codec->err->format_message(codec, errors->text);
+    std::longjmp(errors->jump, 1);
+}
+
+// Missing data are filled with grey by libjpeg and only warned about; here they are an error.
+void onMessage(j_common_ptr codec, int level) {
+    const int code = codec->err->msg_code;
+    if (level < 0 && (code == JWRN_JPEG_EOF || code == JWRN_HIT_MARKER)) onError(codec);
+}
+
+void onProgress(j_common_ptr codec) {
+    const auto* decoder = reinterpret_cast<jpeg_decompress_struct*>(codec);
+    if (decoder->input_scan_number <= kMaxScans) return;
+    auto* errors = reinterpret_cast<ErrorManager*>(codec->err);
+    std::snprintf(errors->text, sizeof errors->text, "more than %d scans", kMaxScans);
+    std::longjmp(errors->jump, 1);
+}
+
+class Reader {
+public:
+    Reader() {
+        decoder_.err = jpeg_std_error(&errors_.base);
+        errors_.base.error_exit = onError;
+        errors_.base.emit_message = onMessage;
+        progress_.progress_monitor = onProgress;
+    }
+    ~Reader() { jpeg_destroy_decompress(&decoder_); }
+    Reader(const Reader&) = delete;
+    Reader& operator=(const Reader&) = delete;
+
+    const char* message() const { return errors_.text; }
+    uint32_t width() const { return decoder_.image_width; }
+    uint32_t height() const { return decoder_.image_height; }
+    bool isCmyk() const {
+        return decoder_.jpeg_color_space == JCS_CMYK || decoder_.jpeg_color_space == JCS_YCCK;
+    }
+
+    bool readHeader(std::span<const uint8_t> bytes) {
+        if (setjmp(errors_.jump)) return false;
+        jpeg_create_decompress(&decoder_);
+        decoder_.progress = &progress_;
+        jpeg_mem_src(&decoder_, bytes.data(), bytes.size());
+        jpeg_read_header(&decoder_, TRUE);
+        return true;
+    }
+
+    bool readRgba(uint8_t* out) {
+        if (setjmp(errors_.jump)) return false;
+        decoder_.out_color_space = JCS_EXT_RGBA;
+        jpeg_start_decompress(&decoder_);
+        while (decoder_.output_scanline < decoder_.output_height) {
+            JSAMPROW row = out + size_t{4} * decoder_.output_width * decoder_.output_scanline;
+            jpeg_read_scanlines(&decoder_, &row, 1);
+        }
+        jpeg_finish_decompress(&decoder_);
+        return true;
+    }
+
+private:
+    jpeg_decompress_struct decoder_{};
+    jpeg_progress_mgr progress_{};
+    ErrorManager errors_{};
+};
+
+} // namespace
+
+Rgba8Image decodeJpeg(std::span<const uint8_t> bytes, const std::string& name) {
+    Reader reader;
+    if (!reader.readHeader(bytes))
+        fail(ExitCode::BadData, "{}: not a usable JPEG: {}", name, reader.message());
+    if (reader.isCmyk()) fail(ExitCode::BadData, "{}: CMYK JPEG is not supported, store it as RGB", name);
+    checkDecodedSize(reader.width(), reader.height(), name);
+    Rgba8Image image{static_cast<int>(reader.width()), static_cast<int>(reader.height()), {}};
+    image.pixels.resize(size_t{4} * reader.width() * reader.height());
+    if (!reader.readRgba(image.pixels.data()))
+        fail(ExitCode::BadData, "{}: damaged JPEG: {}", name, reader.message());
+    return image;
+}
+
+} // namespace irradia

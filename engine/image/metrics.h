@@ -11,9 +11,9 @@ struct ImageMetrics {
     double mse = 0;         // mean of (t - r)^2 over pixels and channels
     double relMse = 0;      // mean of (t - r)^2 / (r^2 + 0.01)
     double mape = 0;        // mean of |t - r| / (|r| + 0.01)
-    double meanRatio = 0;   // mean luminance of t / mean luminance of r
+    double meanRatio = 0;   // mean luminance of t / mean luminance of r, over pixels finite in t
     double flip = 0;        // mean LDR-FLIP (Andersson et al. 2020) of the pictures as toDisplay shows them
-    uint64_t nonFinite = 0; // non-finite values in t; they are left out of the means
+    uint64_t nonFinite = 0; // non-finite values in t; the means leave them out and are NaN if none remain
 };
 
 // Both spans hold width * height pixels. r must be finite; throws Error(BadData) otherwise.

@@ -18,7 +18,9 @@ void main() {
     arguments[kItemArguments] = (count + params.itemsPerGroup - 1u) / params.itemsPerGroup;
     arguments[kItemArguments + 1u] = 1u;
     arguments[kItemArguments + 2u] = 1u;
-    counters[kTracedRays] += count + counters[kShadowRayCounter];
+    uint carry;
+    counters[kTracedRays] = uaddCarry(counters[kTracedRays], count + counters[kShadowRayCounter], carry);
+    counters[kTracedRaysHigh] += carry;
     counters[kRayCounter + 1u - params.parity] = 0u;
     counters[kShadowRayCounter] = 0u;
 }

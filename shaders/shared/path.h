@@ -48,7 +48,7 @@ struct BeginBounceParams {
     uint parity;
     uint raysPerTraceGroup;
     uint itemsPerGroup;
-    uint depth; // statistics: at 0 the shadow ray counter of the wave before is not counted
+    uint pad;
 };
 SHARED_CONST uint kTraceArguments = 0u; // offsets in uints
 SHARED_CONST uint kItemArguments = 4u;

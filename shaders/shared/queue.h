@@ -24,7 +24,8 @@ SHARED_CONST uint kShadowRayRecords = 3u;
 // QueueCounters: a storage buffer of uints.
 SHARED_CONST uint kRayCounter = 0u;       // + 0 or 1: items in the current and the next RayQueue
 SHARED_CONST uint kShadowRayCounter = 2u; // items in the ShadowRayQueue
-SHARED_CONST uint kTracedRays = 3u;       // rays traced so far this frame, all kinds (statistics)
+SHARED_CONST uint kTracedRays = 3u;       // rays traced so far this frame, all kinds: low word
+SHARED_CONST uint kTracedRaysHigh = 4u;   // and high word
 SHARED_CONST uint kCounters = 8u;
 
 SHARED_END

@@ -1,0 +1,47 @@
+#include "engine/scene/gpu_scene.h"
+
+#include "engine/scene/reflectance_table.h"
+#include <algorithm>
+
+namespace irradia {
+
+float rayEpsilon(const Bounds& bounds) {
+    const glm::vec3 largest = glm::max(glm::abs(bounds.lower), glm::abs(bounds.upper));
+    return kRayEpsilonShare * std::max({largest.x, largest.y, largest.z});
+}
+
+std::vector<Device::PlannedBuffer> plannedBuffers(const SceneRecords& records, const Bvh& bvh) {
+    const auto bytes = [](const auto& v) { return uint64_t(v.size() * sizeof(v[0])); };
+    return {
+        {"bvh", bytes(bvh.records)},
+        {"geometry", bytes(records.geometry)},
+        {"attributes", bytes(records.attributes)},
+        {"texels", bytes(records.texels)},
+        {"environment", bytes(records.environment) + bytes(records.environmentAlias)},
+        {"materials and lights", bytes(records.materials) + bytes(records.textures) + bytes(records.lights)}};
+}
+
+GpuScene uploadScene(Device& device, const SceneRecords& records, const Bvh& bvh, const Bounds& bounds) {
+    GpuScene scene;
+    scene.bvh = makeBuffer(device, "bvh", bvh.records);
+    scene.geometry = makeBuffer(device, "geometry", records.geometry);
+    scene.attributes = makeBuffer(device, "attributes", records.attributes);
+    scene.materials = makeBuffer(device, "materials", records.materials);
+    scene.textures = makeBuffer(device, "textures", records.textures);
+    scene.texels = makeBuffer(device, "texels", records.texels);
+    scene.lights = makeBuffer(device, "lights", records.lights);
+    scene.environment = makeBuffer(device, "environment", records.environment);
+    scene.environmentAlias = makeBuffer(device, "environment alias table", records.environmentAlias);
+    scene.reflectanceTable = makeBuffer(device, "reflectance table", buildReflectanceTable());
+    scene.needs = records.needs;
+    scene.triangles = static_cast<uint32_t>(records.geometry.size() / gpu::kGeometryRecords);
+    scene.bvhRoot = bvh.root;
+    scene.lightCount = static_cast<uint32_t>(records.lights.size());
+    scene.environmentWidth = std::max(records.environmentWidth, 1u);
+    scene.environmentHeight = std::max(records.environmentHeight, 1u);
+    scene.environmentProbability = records.needs.environment ? (records.needs.emitters ? 0.5f : 1.0f) : 0.0f;
+    scene.rayEpsilon = rayEpsilon(bounds);
+    return scene;
+}
+
+} // namespace irradia

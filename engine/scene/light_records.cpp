@@ -1,0 +1,106 @@
+#include "engine/scene/light_records.h"
+
+#include "engine/scene/alias_table.h"
+#include "engine/scene/texture_packing.h"
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace irradia {
+
+namespace {
+
+double luminance(const glm::dvec3& c) {
+    return glm::dot(c, glm::dvec3(0.2126, 0.7152, 0.0722));
+}
+
+glm::dvec3 meanColor(const TextureImage& image) {
+    glm::dvec3 sum(0.0);
+    for (size_t i = 0; i < image.rgba.size(); i += 4)
+        sum += glm::dvec3(srgbToLinear(image.rgba[i]), srgbToLinear(image.rgba[i + 1]),
+                          srgbToLinear(image.rgba[i + 2]));
+    return sum / std::max(1.0, double(image.rgba.size() / 4));
+}
+
+// Mean luminance that one side of each material emits, times the number of sides that do.
+std::vector<double> emissiveLuminances(const Scene& scene) {
+    std::vector<double> result;
+    for (const Material& m : scene.materials) {
+        glm::dvec3 emission(m.emission);
+        if (emission != glm::dvec3(0.0) && m.emissiveTexture.image >= 0)
+            emission *= meanColor(scene.images[m.emissiveTexture.image]);
+        result.push_back(luminance(emission) * (m.doubleSided ? 2.0 : 1.0));
+    }
+    return result;
+}
+
+glm::dvec3 texel(const Environment& e, int x, int y) {
+    const int wrapped = (x % e.width + e.width) % e.width;
+    const int clamped = std::clamp(y, 0, e.height - 1);
+    return e.texels[size_t(clamped) * size_t(e.width) + size_t(wrapped)];
+}
+
+// Integral over a texel of the bilinear interpolation, in units of the texel: weights 1/8, 6/8, 1/8 along
+// each axis.
+double meanLuminance(const Environment& e, int x, int y) {
+    constexpr double kWeight[3] = {0.125, 0.75, 0.125};
+    double sum = 0.0;
+    for (int dy = -1; dy <= 1; ++dy)
+        for (int dx = -1; dx <= 1; ++dx)
+            sum += kWeight[dx + 1] * kWeight[dy + 1] * luminance(texel(e, x + dx, y + dy));
+    return sum;
+}
+
+} // namespace
+
+std::vector<uint32_t> packLights(const Scene& scene, std::vector<glm::uvec4>& lights) {
+    const std::vector<double> luminances = emissiveLuminances(scene);
+    std::vector<uint32_t> lightOf(scene.triangles.size(), gpu::kNoLight);
+    std::vector<double> powers;
+    std::vector<uint32_t> primitives;
+    for (size_t i = 0; i < scene.triangles.size(); ++i) {
+        const Triangle& t = scene.triangles[i];
+        if (!(luminances[t.material] > 0.0)) continue;
+        const glm::dvec3 p0(scene.vertices[t.vertex.x].position);
+        const double area =
+            0.5 * glm::length(glm::cross(glm::dvec3(scene.vertices[t.vertex.y].position) - p0,
+                                         glm::dvec3(scene.vertices[t.vertex.z].position) - p0));
+        lightOf[i] = static_cast<uint32_t>(powers.size());
+        powers.push_back(area * luminances[t.material]);
+        primitives.push_back(static_cast<uint32_t>(i));
+    }
+    const std::vector<AliasEntry> table = buildAliasTable(powers);
+    for (size_t i = 0; i < table.size(); ++i)
+        lights.emplace_back(glm::floatBitsToUint(table[i].keep), table[i].alias, primitives[i],
+                            glm::floatBitsToUint(static_cast<float>(table[i].mass)));
+    return lightOf;
+}
+
+void packEnvironment(const Environment& environment, SceneRecords& out) {
+    Environment picture = environment;
+    if (picture.texels.empty()) {
+        picture.width = 64;
+        picture.height = 32;
+        picture.texels.assign(64 * 32, environment.constant);
+    }
+    const size_t count = picture.texels.size();
+    std::vector<double> weights(count);
+    for (int y = 0; y < picture.height; ++y) {
+        // Mean of sin(theta) over the row.
+        const double top = std::cos(std::numbers::pi * y / picture.height);
+        const double bottom = std::cos(std::numbers::pi * (y + 1) / picture.height);
+        for (int x = 0; x < picture.width; ++x)
+            weights[size_t(y) * size_t(picture.width) + size_t(x)] =
+                meanLuminance(picture, x, y) * (top - bottom);
+    }
+    const std::vector<AliasEntry> table = buildAliasTable(weights);
+    for (size_t i = 0; i < count; ++i) {
+        const float density = static_cast<float>(table[i].mass * double(count));
+        out.environment.push_back(glm::floatBitsToUint(glm::vec4(picture.texels[i], density)));
+        out.environmentAlias.emplace_back(glm::floatBitsToUint(table[i].keep), table[i].alias, 0u, 0u);
+    }
+    out.environmentWidth = static_cast<uint32_t>(picture.width);
+    out.environmentHeight = static_cast<uint32_t>(picture.height);
+}
+
+} // namespace irradia

@@ -1,0 +1,118 @@
+#include "engine/scene/scene_records.h"
+
+#include "engine/error.h"
+#include "engine/scene/light_records.h"
+#include "engine/scene/texture_packing.h"
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/packing.hpp>
+
+namespace irradia {
+
+namespace {
+
+glm::uvec4 record(const glm::vec3& v, uint32_t w) {
+    return {glm::floatBitsToUint(v.x), glm::floatBitsToUint(v.y), glm::floatBitsToUint(v.z), w};
+}
+glm::uvec4 record(const glm::vec4& v) {
+    return glm::floatBitsToUint(v);
+}
+
+// Octahedral map of a unit vector (Cigolle et al. 2014).
+uint32_t packOctahedral(const glm::vec3& n) {
+    const float sum = std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
+    if (!(sum > 0.0f)) return gpu::kNoTangent;
+    glm::vec2 p(n.x / sum, n.y / sum);
+    if (n.z < 0.0f)
+        p = {(1.0f - std::abs(p.y)) * (p.x >= 0.0f ? 1.0f : -1.0f),
+             (1.0f - std::abs(p.x)) * (p.y >= 0.0f ? 1.0f : -1.0f)};
+    return glm::packSnorm2x16(p);
+}
+
+void packGeometry(const Scene& scene, const std::vector<uint32_t>& lightOf, SceneRecords& out) {
+    out.geometry.reserve(scene.triangles.size() * gpu::kGeometryRecords);
+    for (size_t i = 0; i < scene.triangles.size(); ++i) {
+        const Triangle& t = scene.triangles[i];
+        const Vertex& a = scene.vertices[t.vertex.x];
+        const Vertex& b = scene.vertices[t.vertex.y];
+        const Vertex& c = scene.vertices[t.vertex.z];
+        const uint32_t handedness =
+            (a.tangent.w < 0 ? 1u : 0u) | (b.tangent.w < 0 ? 2u : 0u) | (c.tangent.w < 0 ? 4u : 0u);
+        out.geometry.push_back(record(a.position, t.material));
+        out.geometry.push_back(record(b.position - a.position, lightOf[i]));
+        out.geometry.push_back(record(c.position - a.position, handedness));
+        out.geometry.emplace_back(packOctahedral(a.normal), packOctahedral(b.normal),
+                                  packOctahedral(c.normal), 0u);
+    }
+}
+
+void packAttributes(const Scene& scene, SceneRecords& out) {
+    out.attributes.reserve(scene.triangles.size() * gpu::kAttributeRecords);
+    for (const Triangle& t : scene.triangles) {
+        const Vertex& a = scene.vertices[t.vertex.x];
+        const Vertex& b = scene.vertices[t.vertex.y];
+        const Vertex& c = scene.vertices[t.vertex.z];
+        out.attributes.push_back(record(glm::vec4(a.uv[0], b.uv[0])));
+        out.attributes.push_back(record(glm::vec4(c.uv[0], a.uv[1])));
+        out.attributes.push_back(record(glm::vec4(b.uv[1], c.uv[1])));
+        out.attributes.emplace_back(packOctahedral(glm::vec3(a.tangent)),
+                                    packOctahedral(glm::vec3(b.tangent)),
+                                    packOctahedral(glm::vec3(c.tangent)), 0u);
+    }
+}
+
+void packMaterials(const Scene& scene, SceneRecords& out) {
+    TexturePacker packer(scene);
+    const auto use = [&](const TextureRef& ref, bool srgb, uint32_t bit) {
+        if (ref.image >= 0) out.needs.textures |= bit;
+        return packer.add(ref, srgb);
+    };
+    for (const Material& m : scene.materials) {
+        const float r = (m.ior - 1.0f) / (m.ior + 1.0f);
+        out.materials.push_back(record(glm::vec4(m.baseColor, m.metallic)));
+        out.materials.push_back(record(glm::vec4(m.emission, m.roughness)));
+        out.materials.push_back(record(glm::vec4(r * r * m.specularColor, m.specular)));
+        out.materials.emplace_back(glm::floatBitsToUint(m.normalScale),
+                                   m.doubleSided ? gpu::kMaterialDoubleSided : 0u, 0u, 0u);
+        const uint32_t base = use(m.baseColorTexture, true, gpu::kBaseColorTexture);
+        const uint32_t rough = use(m.metallicRoughnessTexture, false, gpu::kMetallicRoughnessTexture);
+        const uint32_t normal = use(m.normalTexture, false, gpu::kNormalTexture);
+        const bool emits = m.emission != glm::vec3(0.0f);
+        const uint32_t emissive =
+            emits ? use(m.emissiveTexture, true, gpu::kEmissiveTexture) : gpu::kNoTexture;
+        const uint32_t specular = use(m.specularTexture, false, gpu::kSpecularTexture);
+        const uint32_t color = use(m.specularColorTexture, true, gpu::kSpecularColorTexture);
+        out.materials.emplace_back(base, rough, normal, emissive);
+        out.materials.emplace_back(specular, color, 0u, 0u);
+        out.needs.specular |= m.specular > 0.0f || m.metallic > 0.0f;
+        out.needs.diffuse |= m.metallic < 1.0f || m.metallicRoughnessTexture.image >= 0;
+    }
+    packer.pack(kMaxBindingBytes / sizeof(glm::uvec2), out.textures, out.texels, out.warnings);
+}
+
+template <typename T>
+void requireBinding(const std::vector<T>& part, const char* what) {
+    const uint64_t bytes = part.size() * sizeof(T);
+    if (bytes > kMaxBindingBytes)
+        fail(ExitCode::OutOfMemory, "the scene's {} takes {} MiB, more than the {} MiB one binding may hold",
+             what, bytes >> 20, kMaxBindingBytes >> 20);
+}
+
+} // namespace
+
+SceneRecords packScene(const Scene& scene) {
+    SceneRecords out;
+    const std::vector<uint32_t> lightOf = packLights(scene, out.lights);
+    out.needs.emitters = !out.lights.empty();
+    packMaterials(scene, out);
+    packGeometry(scene, lightOf, out);
+    if (out.needs.textures != 0) packAttributes(scene, out);
+    out.needs.environment = !scene.environment.isBlack();
+    if (out.needs.environment) packEnvironment(scene.environment, out);
+    requireBinding(out.geometry, "geometry");
+    requireBinding(out.attributes, "texture coordinates");
+    requireBinding(out.environment, "environment");
+    return out;
+}
+
+} // namespace irradia

@@ -1,0 +1,41 @@
+// A Scene packed into the records of shaders/shared/scene.h; no GPU involved.
+#pragma once
+
+#include "engine/scene/scene.h"
+#include "shared/scene.h"
+#include <string>
+#include <vector>
+
+namespace irradia {
+
+// What a scene needs of the path tracer's kernels: code for the rest is not compiled.
+struct SceneNeeds {
+    bool environment = false; // light from outside
+    bool emitters = false;    // emissive triangles
+    uint32_t textures = 0;    // mask of gpu::kBaseColorTexture, ...
+    bool specular = false;
+    bool diffuse = false;
+};
+
+struct SceneRecords {
+    std::vector<glm::uvec4> geometry;
+    std::vector<glm::uvec4> attributes; // empty in scenes without textures
+    std::vector<glm::uvec4> materials;
+    std::vector<glm::uvec4> textures;
+    std::vector<glm::uvec2> texels; // four halves each
+    std::vector<glm::uvec4> lights;
+    std::vector<glm::uvec4> environment;
+    std::vector<glm::uvec4> environmentAlias;
+    uint32_t environmentWidth = 0;
+    uint32_t environmentHeight = 0;
+    SceneNeeds needs;
+    std::vector<std::string> warnings; // textures that were made smaller to fit
+};
+
+// Most bytes one binding may hold (lavapipe's limit on storage buffers).
+inline constexpr uint64_t kMaxBindingBytes = 128ull << 20;
+
+// Throws Error(OutOfMemory) naming the part that does not fit one binding.
+SceneRecords packScene(const Scene& scene);
+
+} // namespace irradia

@@ -1,0 +1,66 @@
+// Writes a self-contained .glb: glTF 2.0 with its geometry and pictures in one binary chunk. Equal calls give
+// equal bytes.
+#pragma once
+
+#include "engine/image/image.h"
+#include "mesh.h"
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+
+namespace irradia::scenes {
+
+// What the scenes use of glTF's metallic-roughness material; the defaults are a dull white plastic.
+struct GltfMaterial {
+    std::string name;
+    glm::vec3 baseColor{0.8f};
+    float metallic = 0.0f;
+    float roughness = 1.0f;
+    float specular = 1.0f;    // 0: pure Lambert
+    glm::vec3 emission{0.0f}; // radiance, front faces only
+    int baseColorTexture = -1;
+    int metallicRoughnessTexture = -1; // roughness in green, metallic in blue
+    int normalTexture = -1;
+};
+
+class GlbWriter {
+public:
+    // A picture repeated in both directions, as PNG. Returns the texture's index.
+    int addTexture(const std::string& name, const Rgba8Image& image);
+    int addMaterial(const GltfMaterial& material);
+
+    struct Part {
+        const Mesh* mesh;
+        int material;
+    };
+    int addMesh(const std::string& name, std::span<const Part> parts);
+    int addMesh(const std::string& name, const Mesh& mesh, int material);
+
+    void addNode(const std::string& name, int mesh, const glm::mat4& transform = glm::mat4(1.0f));
+
+    // Shorthand for a mesh that stands in one place.
+    void add(const std::string& name, const Mesh& mesh, int material,
+             const glm::mat4& transform = glm::mat4(1.0f));
+
+    void addCamera(const std::string& name, glm::vec3 eye, glm::vec3 target, float verticalFovDegrees);
+
+    void write(const std::filesystem::path& file) const;
+
+private:
+    // Floats of 32 bits print in as few digits as they need; keys keep their order.
+    using Json = nlohmann::basic_json<nlohmann::ordered_map, std::vector, std::string, bool, std::int64_t,
+                                      std::uint64_t, float>;
+
+    int addView(std::span<const uint8_t> bytes);
+    template <typename T>
+    int addAccessor(const std::vector<T>& values, int componentType, const char* type);
+    void placeNode(const std::string& name, const glm::mat4& transform, const char* kind, int index);
+    void useExtension(const char* name);
+
+    Json gltf_ = {{"asset", {{"version", "2.0"}, {"generator", "Irradia make_scenes"}}}};
+    std::vector<uint8_t> binary_;
+};
+
+} // namespace irradia::scenes

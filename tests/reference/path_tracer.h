@@ -1,0 +1,57 @@
+// The reference: a path tracer in double precision, recursive as the rendering equation reads (Kajiya 1986),
+// with next- event estimation and multiple importance sampling (Veach 1997, balance heuristic).
+#pragma once
+
+#include "tests/reference/camera_rays.h"
+#include "tests/reference/image_estimate.h"
+#include "tests/reference/lights.h"
+
+namespace irradia::reference {
+
+// How direct light is estimated; all three have the same expectation.
+enum class LightStrategy { Mis, BsdfOnly, LightOnly };
+
+struct RenderSettings {
+    int width = 64;
+    int height = 64;
+    int samples = 64; // paths a pixel, at least 2 (the variance is estimated from them)
+    int maxBounces =
+        16; // B: a path has at most B + 2 edges, light connection included; 0 = emission and direct light
+    uint64_t seed = 1;
+    LightStrategy strategy = LightStrategy::Mis;
+    int threads = 0; // 0 = all; the picture does not depend on it
+};
+
+class PathTracer {
+public:
+    explicit PathTracer(const Scene& scene); // which must outlive it
+
+    ImageEstimate render(const Camera& camera, const RenderSettings& settings) const;
+
+    // One estimate of the radiance that arrives along a ray at its origin.
+    Vec3 radiance(const Ray& ray, int maxBounces, LightStrategy strategy, Random& random) const;
+
+private:
+    // The path up to a ray: what its estimate still needs of it.
+    struct Walk {
+        int edge = 0;            // number d of the ray, 0 = from the camera
+        double pdf = 0.0;        // with which the BSDF sampled its direction, 1/sr; unused at edge 0
+        double importance = 1.0; // largest component of the path's weight, for Russian roulette
+    };
+    struct Estimator {
+        int maxBounces;
+        LightStrategy strategy;
+        Random& random;
+    };
+    Vec3 incident(const Ray& ray, const Walk& walk, const Estimator& estimator) const;
+    Vec3 direct(const SurfacePoint& point, const Estimator& estimator) const;
+    Vec3 indirect(const SurfacePoint& point, const Walk& walk, const Estimator& estimator) const;
+    Vec3 leave(const SurfacePoint& point) const; // origin of rays that leave a surface
+
+    const Scene* scene_;
+    Bvh bvh_;
+    Lights lights_;
+    double offset_; // of ray origins from surfaces, a billionth of the scene's largest coordinate
+};
+
+} // namespace irradia::reference

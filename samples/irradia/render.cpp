@@ -1,0 +1,141 @@
+// irradia render: headless frames into an EXR, and what else is asked for.
+#include "commands.h"
+#include "engine/error.h"
+#include "frame_stats.h"
+#include "progress.h"
+#include "render_session.h"
+#include <chrono>
+
+namespace irradia {
+
+namespace {
+
+struct RenderOptions {
+    RenderRequest request;
+    std::string output;
+    std::string frames = "1";
+    double seconds = 0.0;
+    std::string png;
+    std::string stats;
+    std::string progress = "auto";
+};
+
+// Options of the design that later versions bring: known, and refused in one sentence.
+constexpr const char* kLaterOptions[] = {"--warmup",    "--network",   "--preset", "--view",
+                                         "--changes",   "--model",     "--at",     "--camera-path",
+                                         "--reference", "--checkpoint"};
+constexpr const char* kLaterFlags[] = {"--denoise", "--sequence", "--resume"};
+
+struct FrameRange {
+    uint32_t first = 0;
+    uint32_t end = 0;
+};
+
+// "N" or half-open "A-B".
+FrameRange parseFrames(const std::string& text) {
+    unsigned a = 0, b = 0;
+    int used = 0;
+    if (std::sscanf(text.c_str(), "%9u-%9u%n", &a, &b, &used) == 2 && size_t(used) == text.size() && a < b)
+        return {a, b};
+    if (std::sscanf(text.c_str(), "%9u%n", &a, &used) == 1 && size_t(used) == text.size() && a > 0)
+        return {0, a};
+    fail(ExitCode::Usage, "--frames {}: not a number of frames from 1, nor a range A-B with A < B", text);
+}
+
+void renderFrames(RenderSession& session, const RenderOptions& options) {
+    const FrameRange range = parseFrames(options.frames);
+    const auto start = std::chrono::steady_clock::now();
+    const auto elapsed = [&] {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    };
+    Progress progress("render", options.progress);
+    if (options.seconds > 0.0) {
+        for (uint32_t frame = range.first; elapsed() < options.seconds; ++frame) {
+            session.renderFrame(frame);
+            progress.update(std::min(elapsed() / options.seconds, 1.0));
+        }
+    } else {
+        for (uint32_t frame = range.first; frame < range.end; ++frame) {
+            session.renderFrame(frame);
+            progress.update(double(frame + 1 - range.first) / (range.end - range.first));
+        }
+    }
+    progress.finish();
+}
+
+// Everything that decides the picture, so that it can be made again.
+void describe(LayeredImage& image, RenderSession& session, uint32_t frames, uint32_t firstFrame) {
+    const RenderRequest& request = session.request();
+    auto& a = image.attributes;
+    a["irradia.version"] = IRRADIA_VERSION;
+    a["irradia.device"] = session.device().description().name;
+    a["irradia.driver"] = session.device().description().driver;
+    a["irradia.subgroupSize"] = std::to_string(session.device().subgroupSize());
+    a["irradia.recordAccess"] = session.device().texelRecords() ? "texel" : "storage";
+    a["irradia.scene"] = session.scene().name;
+    a["irradia.sceneHash"] = fmt::format("{:016x}", session.scene().contentHash);
+    a["irradia.method"] = request.method;
+    a["irradia.seed"] = std::to_string(request.seed);
+    a["irradia.frames"] = fmt::format("{}-{}", firstFrame, firstFrame + frames);
+    a["irradia.options"] =
+        fmt::format("--size {} --spp {} --max-bounces {} --camera '{}' --env '{}'", request.size,
+                    request.samplesPerFrame, request.maxBounces, request.camera, request.environment);
+}
+
+void render(const RenderOptions& options) {
+    const FrameRange range = parseFrames(options.frames);
+    RenderSession session(options.request);
+    renderFrames(session, options);
+
+    const FilmImage film = session.tracer().readFilm();
+    LayeredImage image = toLayers(film);
+    describe(image, session, film.frames, range.first);
+    writeExr(options.output, image);
+    if (!options.png.empty()) writePng(options.png, toDisplay(film.width, film.height, film.mean));
+    if (!options.stats.empty()) {
+        const std::string text = frameStats(session).dump(2) + "\n";
+        writeFileAtomically(options.stats,
+                            std::span(reinterpret_cast<const uint8_t*>(text.data()), text.size()));
+    }
+    printFrameStats(session);
+    if (session.device().validationMessages() > 0)
+        fail(ExitCode::Internal, "{} validation messages", session.device().validationMessages());
+    fmt::print("{}\n", options.output);
+    if (!options.png.empty()) fmt::print("{}\n", options.png);
+}
+
+} // namespace
+
+void addRender(CLI::App& program) {
+    auto options = std::make_shared<RenderOptions>();
+    CLI::App* command = program.add_subcommand("render", "Render frames of a scene, headless");
+    addRequestOptions(*command, options->request);
+    command->add_option("-o,--output", options->output, "EXR file")->required()->group("Output");
+    command->add_option("--png", options->png, "The picture as a screen shows it")->group("Output");
+    command->add_option("--stats", options->stats, "Times, rays and memory as JSON")->group("Output");
+    command->add_flag("--aov", options->request.surfaces, "Add albedo, normal, position and depth layers")
+        ->group("Output");
+    command->add_option("--frames", options->frames, "N frames, or the half-open range A-B")
+        ->group("Frames")
+        ->capture_default_str();
+    command->add_option("--time", options->seconds, "Seconds to render for, instead of a number of frames")
+        ->check(CLI::PositiveNumber)
+        ->group("Frames");
+    addProgressOption(*command, options->progress);
+    for (const char* name : kLaterOptions)
+        command
+            ->add_option_function<std::string>(
+                name,
+                [name](const std::string&) { fail(ExitCode::Usage, "{} comes in a later version", name); },
+                "Comes in a later version")
+            ->group("Later versions");
+    for (const char* name : kLaterFlags)
+        command
+            ->add_flag_callback(
+                name, [name] { fail(ExitCode::Usage, "{} comes in a later version", name); },
+                "Comes in a later version")
+            ->group("Later versions");
+    command->callback([options] { render(*options); });
+}
+
+} // namespace irradia

@@ -1,0 +1,120 @@
+#include "render_session.h"
+
+#include "engine/error.h"
+#include <chrono>
+#include <cstdio>
+
+namespace irradia {
+
+namespace {
+
+RecordAccess parseRecords(const std::string& text) {
+    if (text == "texel") return RecordAccess::Texel;
+    if (text == "storage") return RecordAccess::Storage;
+    return RecordAccess::Auto;
+}
+
+void requireKnownMethod(const std::string& method) {
+    if (method == "pt") return;
+    for (const char* later : {"nrc", "cache-view", "nr-lhs", "nr-rhs"})
+        if (method == later)
+            fail(ExitCode::Usage, "--method {} comes in a later version; this one has pt", method);
+    fail(ExitCode::Usage, "--method {} is unknown; this version has pt", method);
+}
+
+void reportScene(const Scene& scene, const std::vector<std::string>& packingWarnings) {
+    fmt::print(stderr, "scene {}: {} triangles, {} materials, {} pictures\n", scene.name,
+               scene.triangles.size(), scene.materials.size(), scene.images.size());
+    const SceneNotes& notes = scene.notes;
+    if (notes.nonFiniteTriangles + notes.degenerateTriangles > 0)
+        fmt::print(stderr, "warning: dropped {} degenerate and {} non-finite triangles\n",
+                   notes.degenerateTriangles, notes.nonFiniteTriangles);
+    for (const std::string& warning : notes.warnings) fmt::print(stderr, "warning: {}\n", warning);
+    for (const std::string& warning : packingWarnings) fmt::print(stderr, "warning: {}\n", warning);
+}
+
+} // namespace
+
+void addRequestOptions(CLI::App& command, RenderRequest& request) {
+    command.add_option("scene", request.scene, "glTF scene, .gltf or .glb")->required();
+    command.add_option("--camera", request.camera, "Camera by name, index or .json file")->group("Scene");
+    command.add_option("--env", request.environment, "Environment: .exr, .hdr or R,G,B")->group("Scene");
+    command.add_option("--method", request.method, "pt")->group("Method")->capture_default_str();
+    command.add_option("--size", request.size, "Picture, WxH")->group("Method")->capture_default_str();
+    command.add_option("--spp", request.samplesPerFrame, "Samples of a pixel per frame")
+        ->check(CLI::Range(1u, 65536u))
+        ->group("Method")
+        ->capture_default_str();
+    command
+        .add_option(
+            "--max-bounces", request.maxBounces,
+            "A path has at most this + 2 edges, light connection included; 0 = emission and direct light")
+        ->check(CLI::Range(0u, 1024u))
+        ->group("Method")
+        ->capture_default_str();
+    command.add_option("--seed", request.seed, "Of the random numbers")
+        ->group("Method")
+        ->capture_default_str();
+    command.add_option("--device", request.device.select, "Index, name, cpu or gpu")->group("Device");
+    command.add_flag("--validation", request.device.validation, "Vulkan's validation layers")
+        ->group("Device");
+    command.add_option("--subgroup", request.device.subgroupSize, "Subgroup size to pin")->group("Device");
+    command.add_option("--records", request.records, "Form of the kernels: auto, texel or storage")
+        ->check(CLI::IsMember({"auto", "texel", "storage"}))
+        ->group("Device");
+}
+
+glm::uvec2 parseSize(const std::string& text) {
+    unsigned width = 0, height = 0;
+    int used = 0;
+    const bool read =
+        std::sscanf(text.c_str(), "%5ux%5u%n", &width, &height, &used) == 2 && size_t(used) == text.size();
+    if (!read || width < 1 || height < 1 || width > 16384 || height > 16384)
+        fail(ExitCode::Usage, "--size {}: not WxH with both from 1 to 16384", text);
+    return {width, height};
+}
+
+RenderSession::RenderSession(const RenderRequest& request)
+    : request_(request)
+    , size_(parseSize(request.size)) {
+    requireKnownMethod(request.method);
+    request_.device.records = parseRecords(request.records);
+    scene_ = loadScene(request.scene);
+    const CameraFile chosen = chooseCamera(scene_, request.camera);
+    camera_ = chosen.camera;
+    const std::string& environment = request.environment.empty() ? chosen.environment : request.environment;
+    if (!environment.empty()) scene_.environment = loadEnvironment(environment);
+
+    const SceneRecords records = packScene(scene_);
+    reportScene(scene_, records.warnings);
+    const Bvh bvh = buildBvh(scene_);
+    device_ = std::make_unique<Device>(request_.device);
+    fmt::print(stderr, "device {} ({}), subgroups of {}, {} records\n", device_->description().name,
+               device_->description().driver, device_->subgroupSize(),
+               device_->texelRecords() ? "texel" : "storage");
+
+    PathTracerOptions options;
+    options.width = size_.x;
+    options.height = size_.y;
+    options.maxBounces = request.maxBounces;
+    options.samplesPerFrame = request.samplesPerFrame;
+    options.seed = request.seed;
+    options.surfaces = request.surfaces;
+    auto plan = plannedBuffers(records, bvh);
+    for (auto& buffer : WavefrontPathTracer::plannedBuffers(*device_, options))
+        plan.push_back(std::move(buffer));
+    device_->plan(plan);
+    gpuScene_ = uploadScene(*device_, records, bvh, sceneBounds(scene_));
+    tracer_ = std::make_unique<WavefrontPathTracer>(*device_, gpuScene_, options, &profiler_);
+}
+
+double RenderSession::renderFrame(uint32_t index) {
+    const auto start = std::chrono::steady_clock::now();
+    tracer_->renderFrame(camera_, index);
+    const double wall =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    profiler_.endFrame(wall);
+    return wall;
+}
+
+} // namespace irradia

@@ -1,0 +1,60 @@
+// What `render` and `bench frame` share: the options that say what to render, and the opened scene, device
+// and tracer.
+#pragma once
+
+#include "engine/path/wavefront_path_tracer.h"
+#include "engine/scene/load_scene.h"
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+
+namespace irradia {
+
+struct RenderRequest {
+    std::string scene;
+    std::string method = "pt";
+    std::string size = "512x512";
+    uint32_t samplesPerFrame = 1;
+    uint32_t maxBounces = 16;
+    uint32_t seed = 1;
+    std::string camera;
+    std::string environment;
+    bool surfaces = false;
+    DeviceOptions device;
+    std::string records = "auto"; // form of the kernels
+};
+
+// Adds the options of a request, grouped by topic.
+void addRequestOptions(CLI::App& command, RenderRequest& request);
+
+// "WxH", each from 1 to 16384. Throws Error(Usage).
+glm::uvec2 parseSize(const std::string& text);
+
+// A scene on a device, ready to render. Says on stderr what was loaded, what was left out, and where it runs.
+class RenderSession {
+public:
+    explicit RenderSession(const RenderRequest& request);
+
+    // Renders a frame and closes it in the profiler; returns its wall-clock milliseconds.
+    double renderFrame(uint32_t index);
+
+    const RenderRequest& request() const { return request_; }
+    const Scene& scene() const { return scene_; }
+    Device& device() { return *device_; }
+    WavefrontPathTracer& tracer() { return *tracer_; }
+    Profiler& profiler() { return profiler_; }
+    const Camera& camera() const { return camera_; }
+    glm::uvec2 size() const { return size_; }
+
+private:
+    RenderRequest request_;
+    glm::uvec2 size_;
+    Scene scene_;
+    Camera camera_;
+    std::unique_ptr<Device> device_;
+    GpuScene gpuScene_;
+    Profiler profiler_;
+    std::unique_ptr<WavefrontPathTracer> tracer_;
+};
+
+} // namespace irradia

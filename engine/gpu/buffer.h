@@ -2,10 +2,12 @@
 #pragma once
 
 #include "engine/gpu/device.h"
+#include <algorithm>
 #include <cstddef>
 #include <map>
 #include <span>
 #include <string>
+#include <tuple>
 #include <type_traits>
 #include <vector>
 
@@ -29,12 +31,14 @@ public:
     uint64_t bytes() const { return bytes_; }
     VkBuffer handle() const { return buffer_; }
     explicit operator bool() const { return buffer_ != VK_NULL_HANDLE; }
-    std::span<std::byte> mapped() const; // Memory::Host only
+    bool isMapped() const { return mapped_ != nullptr; } // Memory::Host
+    std::span<std::byte> mapped() const;                 // Memory::Host only
 
     // A view of [offset, offset + range) as texels of `format`; made once, owned by the buffer.
     VkBufferView texelView(VkFormat format, uint64_t offset, uint64_t range) const;
 
 private:
+    void destroy();
     Device* device_ = nullptr;
     std::string name_;
     uint64_t bytes_ = 0;
@@ -51,8 +55,13 @@ struct BufferRange {
     uint64_t offset = 0;
     uint64_t bytes = 0;
 
-    BufferRange(const Buffer& whole) : buffer(&whole), bytes(whole.bytes()) {}
-    BufferRange(const Buffer& b, uint64_t at, uint64_t size) : buffer(&b), offset(at), bytes(size) {}
+    BufferRange(const Buffer& whole)
+        : buffer(&whole)
+        , bytes(whole.bytes()) {}
+    BufferRange(const Buffer& b, uint64_t at, uint64_t size)
+        : buffer(&b)
+        , offset(at)
+        , bytes(size) {}
 };
 
 // Synchronous copies through a staging buffer; the ranges must lie inside the buffer.
@@ -74,7 +83,8 @@ std::vector<T> download(Device& device, const Buffer& from, size_t count, uint64
 }
 
 // A device buffer holding `values` (at least one element's size, so that it can always be bound).
-template <typename T> Buffer makeBuffer(Device& device, const std::string& name, const std::vector<T>& values) {
+template <typename T>
+Buffer makeBuffer(Device& device, const std::string& name, const std::vector<T>& values) {
     Buffer buffer(device, name, std::max<size_t>(values.size(), 1) * sizeof(T));
     if (!values.empty()) upload<T>(device, buffer, values);
     return buffer;

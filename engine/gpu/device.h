@@ -14,11 +14,11 @@ namespace irradia {
 enum class RecordAccess { Auto, Texel, Storage };
 
 struct DeviceOptions {
-    std::string select;          // index, part of a name (any case), "cpu", "gpu"; empty = first GPU, else CPU
-    bool validation = false;     // core and synchronisation validation; messages are counted and logged
-    uint32_t subgroupSize = 0;   // 0 = the device's own; else pinned where the device has it, refused otherwise
+    std::string select;        // index, part of a name (any case), "cpu", "gpu"; empty = first GPU, else CPU
+    bool validation = false;   // core and synchronisation validation; messages are counted and logged
+    uint32_t subgroupSize = 0; // 0 = the device's own; else pinned where the device has it, refused otherwise
     RecordAccess records = RecordAccess::Auto;
-    double memoryShare = 0.8;    // of the device's memory that is there: plans above it are refused
+    double memoryShare = 0.8; // of the device's memory that is there: plans above it are refused
 };
 
 // A line of `irradia devices`; `missing` names each required feature the device lacks.
@@ -34,6 +34,16 @@ struct DeviceDescription {
 };
 std::vector<DeviceDescription> listDevices();
 
+// Features that are switched on where the device has them; a kernel that needs one asks first.
+struct OptionalFeatures {
+    bool bufferDeviceAddress = false;
+    bool shaderInt64 = false;
+    bool shaderFloat16 = false;
+    bool storage16Bit = false;
+    bool bufferInt64Atomics = false;
+    bool vulkanMemoryModel = false; // with device scope
+};
+
 class Device {
 public:
     explicit Device(const DeviceOptions& options = {}); // throws Error(NoDevice) naming what is missing
@@ -45,10 +55,12 @@ public:
     bool isCpu() const;
     uint32_t subgroupSize() const;       // the size kernels are pinned to
     bool canPinSubgroupSize() const;     // VK_EXT_subgroup_size_control (core in 1.3)
+    uint32_t nativeSubgroupSize() const; // of kernels that are not pinned
     bool texelRecords() const;           // which form of the kernels is used
+    const OptionalFeatures& features() const;
     const VkPhysicalDeviceLimits& limits() const;
 
-    // Memory: plan() prints what is about to be allocated ("name  MiB" lines to the log) and throws
+    // Memory: plan() prints the sum and the largest of what is about to be allocated and throws
     // Error(OutOfMemory) naming the sum and the budget when it does not fit; every Buffer counts against it.
     struct PlannedBuffer {
         std::string name;
@@ -68,7 +80,9 @@ public:
     uint32_t queueFamily() const;
     float timestampPeriodNs() const; // 0 where the queue has no timestamps
 
-    // Submits and waits on a fence; throws Error(Internal) naming `what` on a timeout or a lost device.
+    // Submits and waits on a fence; throws Error(Internal) naming `what` on a timeout or a lost device. After
+    // a timeout the device may still be at work on anything it was given: then nothing is freed any more.
+    bool abandoned() const;
     void submitAndWait(VkCommandBuffer commands, const std::string& what, double timeoutSeconds = 60.0) const;
     void label(VkObjectType type, uint64_t handle, const std::string& name) const; // debug name, if available
 
@@ -81,7 +95,8 @@ private:
     std::unique_ptr<State> state_;
 };
 
-// Throws Error(Internal) "what: VK_ERROR_..." unless result is VK_SUCCESS (device loss and out-of-memory by name).
+// Throws Error(Internal) "what: VK_ERROR_..." unless result is VK_SUCCESS (device loss and out-of-memory by
+// name).
 void check(VkResult result, const std::string& what);
 
 } // namespace irradia

@@ -23,17 +23,18 @@ struct Specialisation {
 
 // One binding of set 0, in order of its number 0, 1, 2, ...
 struct KernelBinding {
-    VkDescriptorType type;                       // storage buffer, storage texel buffer or uniform buffer
-    VkFormat format = VK_FORMAT_UNDEFINED;       // of a texel view
-    bool readable = true;                        // not declared writeonly
-    bool writable = true;                        // not declared readonly
+    VkDescriptorType type;                 // storage buffer, storage texel buffer or uniform buffer
+    VkFormat format = VK_FORMAT_UNDEFINED; // of a texel view
+    bool readable = true;                  // not declared writeonly
+    bool writable = true;                  // not declared readonly
     std::string name;
 };
 
 struct KernelOptions {
     std::vector<Specialisation> constants;
-    uint32_t workgroupSize = 0; // 0 = the device class's default (CPU 32, GPU 128), a multiple of the subgroup
-    bool pinSubgroup = true;    // require Device::subgroupSize()
+    uint32_t workgroupSize =
+        0;                   // 0 = the device class's default (CPU 32, GPU 128), a multiple of the subgroup
+    bool pinSubgroup = true; // require Device::subgroupSize()
 };
 
 class Kernel {

@@ -12,7 +12,7 @@ class Profiler {
 public:
     struct Row {
         std::string name;
-        double p50 = 0;   // ms per frame
+        double p50 = 0; // ms per frame
         double p90 = 0;
         double mean = 0;
         uint64_t runs = 0; // dispatches over all frames
@@ -25,8 +25,8 @@ public:
     void reset();
 
     size_t frames() const { return wall_.size(); }
-    std::vector<Row> rows() const; // in order of first appearance
-    Row wall() const;              // named "total"
+    std::vector<Row> rows() const;                 // in order of first appearance
+    Row wall() const;                              // named "total"
     double lastFrame(std::string_view pass) const; // ms in the last closed frame, 0 if it did not run
 
 private:

@@ -1,10 +1,10 @@
-// A frame as a list of passes that bind buffers to kernels. Binding declares the access; schedule() derives the
-// barriers. Nothing is reordered.
+// A frame as a list of passes that bind buffers to kernels. Binding declares the access; schedule() derives
+// the barriers. Nothing is reordered.
 //
 //     graph.pass(scatter).read(rays).read(hits).readWrite(radiance).write(nextRays).push(params).dispatch(count);
 //
-// Bindings are numbered by the order of the read/write calls, and checked against the kernel's own: count, and
-// whether each may be read or written.
+// Bindings are numbered by the order of the read/write calls, and checked against the kernel's own: count,
+// and exactly the accesses its declaration allows (readonly, writeonly, or both).
 #pragma once
 
 #include "engine/gpu/buffer.h"
@@ -23,12 +23,14 @@ public:
     Pass& read(BufferRange range);
     Pass& write(BufferRange range);
     Pass& readWrite(BufferRange range);
-    template <typename T> Pass& push(const T& params) {
+    template <typename T>
+    Pass& push(const T& params) {
         static_assert(std::is_trivially_copyable_v<T> && sizeof(T) <= 128);
         return pushBytes(std::as_bytes(std::span<const T, 1>(&params, 1)));
     }
 
-    // Ends the pass. `items` invocations, rounded up to whole workgroups: the kernel guards the rest.
+    // Each of these ends the pass; one of no groups is left out. `items` invocations, rounded up to whole
+    // workgroups: the kernel guards the rest.
     void dispatch(uint64_t items);
     void dispatchGroups(uint32_t groups);
     // Group counts from three uint32 at `arguments`.
@@ -36,7 +38,9 @@ public:
 
 private:
     friend class FrameGraph;
-    Pass(FrameGraph& graph, size_t index) : graph_(graph), index_(index) {}
+    Pass(FrameGraph& graph, size_t index)
+        : graph_(graph)
+        , index_(index) {}
     Pass& bind(BufferRange range, bool read, bool write);
     Pass& pushBytes(std::span<const std::byte> bytes);
     FrameGraph& graph_;
@@ -56,6 +60,10 @@ public:
     // A place where a slice may end. execute() submits as many passes as took about 100 ms when they last ran
     // (which changes no result) and waits for each submission, so that no watchdog sees a long one.
     void cut();
+
+    // How long one submission may take before execute() gives the device up (60 s; first runs include
+    // compiling).
+    void setTimeout(double seconds);
 
     // Records, submits, waits; then the graph is empty again. Kernels and buffers must live until it returns.
     void execute();

@@ -1,0 +1,298 @@
+#include "engine/gpu/device.h"
+#include "engine/error.h"
+#include "engine/gpu/memory_budget.h"
+#include "engine/gpu/physical_device.h"
+#include <algorithm>
+#include <bit>
+#include <cstdio>
+#include <cstdlib>
+#include <numeric>
+#include <span>
+#include <string_view>
+
+namespace irradia {
+
+struct Device::State {
+    explicit State(bool validation)
+        : instance(validation) {}
+    ~State();
+
+    Instance instance;
+    PhysicalDevice physical;
+    uint32_t subgroupSize = 0;
+    bool texelRecords = false;
+    VkDevice device = VK_NULL_HANDLE;
+    VkQueue queue = VK_NULL_HANDLE;
+    VkFence fence = VK_NULL_HANDLE;
+    bool abandoned = false;
+    VkPhysicalDeviceMemoryProperties memory{};
+    uint64_t memoryBudget = 0;
+    uint64_t memoryUsed = 0;
+    PFN_vkSetDebugUtilsObjectNameEXT setName = nullptr;
+};
+
+Device::State::~State() {
+    if (fence != VK_NULL_HANDLE) vkDestroyFence(device, fence, nullptr);
+    if (device != VK_NULL_HANDLE) vkDestroyDevice(device, nullptr);
+}
+
+namespace {
+
+constexpr double kMiB = 1024.0 * 1024.0;
+
+bool wantsValidation(const DeviceOptions& options) {
+    const char* variable = std::getenv("IRRADIA_VALIDATION");
+    return options.validation || (variable && std::string_view(variable) == "1");
+}
+
+uint32_t chooseSubgroupSize(const PhysicalDevice& device, uint32_t wanted) {
+    const uint32_t native = device.description.subgroupSize;
+    if (wanted == 0 || wanted == native) return native;
+    const std::string& name = device.description.name;
+    const char* hint =
+        device.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU
+            ? "; lavapipe's is set by LP_NATIVE_VECTOR_WIDTH = 128, 256 or 512 (4, 8 or 16 lanes)"
+            : "";
+    if (!device.subgroupSizeControl)
+        fail(ExitCode::NoDevice, "{} runs subgroups of {} and cannot be pinned to {}{}", name, native, wanted,
+             hint);
+    if (!std::has_single_bit(wanted) || wanted < device.minSubgroupSize || wanted > device.maxSubgroupSize)
+        fail(ExitCode::NoDevice, "{} has subgroups of {} to {}, not of {}{}", name, device.minSubgroupSize,
+             device.maxSubgroupSize, wanted, hint);
+    return wanted;
+}
+
+bool chooseTexelRecords(const PhysicalDevice& device, RecordAccess records) {
+    if (records == RecordAccess::Texel && !device.texelShortcoming.empty())
+        fail(ExitCode::NoDevice, "{} cannot read records through texel views: {}", device.description.name,
+             device.texelShortcoming);
+    return records == RecordAccess::Auto ? device.texelShortcoming.empty() : records == RecordAccess::Texel;
+}
+
+VkDevice createDevice(const PhysicalDevice& physical) {
+    VkPhysicalDeviceSubgroupSizeControlFeatures control{
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_FEATURES};
+    control.subgroupSizeControl = VK_TRUE;
+    control.computeFullSubgroups = VK_TRUE;
+    const OptionalFeatures& has = physical.features;
+    VkPhysicalDeviceVulkan12Features v12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
+    v12.bufferDeviceAddress = has.bufferDeviceAddress;
+    v12.shaderFloat16 = has.shaderFloat16;
+    v12.shaderBufferInt64Atomics = has.bufferInt64Atomics;
+    v12.vulkanMemoryModel = has.vulkanMemoryModel;
+    v12.vulkanMemoryModelDeviceScope = has.vulkanMemoryModel;
+    VkPhysicalDeviceVulkan11Features v11{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES};
+    v11.storageBuffer16BitAccess = has.storage16Bit;
+    VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
+    features.features.robustBufferAccess = VK_TRUE;
+    features.features.shaderInt64 = has.shaderInt64;
+    features.pNext = &v11;
+    v11.pNext = &v12;
+
+    std::vector<const char*> extensions;
+    if (physical.subgroupSizeControl) {
+        extensions.push_back(VK_EXT_SUBGROUP_SIZE_CONTROL_EXTENSION_NAME);
+        v12.pNext = &control;
+    }
+    if (physical.memoryBudget) extensions.push_back(VK_EXT_MEMORY_BUDGET_EXTENSION_NAME);
+
+    const float priority = 1.0f;
+    VkDeviceQueueCreateInfo queue{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
+    queue.queueFamilyIndex = physical.queueFamily;
+    queue.queueCount = 1;
+    queue.pQueuePriorities = &priority;
+    VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO};
+    info.pNext = &features;
+    info.queueCreateInfoCount = 1;
+    info.pQueueCreateInfos = &queue;
+    info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
+    info.ppEnabledExtensionNames = extensions.data();
+    VkDevice device = VK_NULL_HANDLE;
+    check(vkCreateDevice(physical.handle, &info, nullptr, &device),
+          "vkCreateDevice on " + physical.description.name);
+    return device;
+}
+
+// The memory type, among those the buffer allows, that has all of `required` and most of `wanted`, and the
+// fewest other properties; UINT32_MAX if none.
+uint32_t findMemoryType(const VkPhysicalDeviceMemoryProperties& memory, uint32_t allowed,
+                        VkMemoryPropertyFlags required, VkMemoryPropertyFlags wanted) {
+    uint32_t best = UINT32_MAX;
+    int bestScore = 0;
+    for (uint32_t i = 0; i < memory.memoryTypeCount; ++i) {
+        const VkMemoryPropertyFlags flags = memory.memoryTypes[i].propertyFlags;
+        if (!(allowed & (1u << i)) || (flags & required) != required) continue;
+        const int score = 100 + 16 * std::popcount(flags & wanted) - std::popcount(flags & ~wanted);
+        if (score > bestScore) {
+            best = i;
+            bestScore = score;
+        }
+    }
+    return best;
+}
+
+} // namespace
+
+Device::Device(const DeviceOptions& options)
+    : state_(std::make_unique<State>(wantsValidation(options))) {
+    State& s = *state_;
+    s.physical = choose(physicalDevices(s.instance), options.select);
+    s.subgroupSize = chooseSubgroupSize(s.physical, options.subgroupSize);
+    s.texelRecords = chooseTexelRecords(s.physical, options.records);
+    s.device = createDevice(s.physical);
+    vkGetDeviceQueue(s.device, s.physical.queueFamily, 0, &s.queue);
+    VkFenceCreateInfo fence{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
+    check(vkCreateFence(s.device, &fence, nullptr, &s.fence), "vkCreateFence");
+    vkGetPhysicalDeviceMemoryProperties(s.physical.handle, &s.memory);
+    const uint64_t there = s.physical.description.memoryBytes;
+    s.memoryBudget = static_cast<uint64_t>(static_cast<double>(there) * options.memoryShare);
+    if (s.instance.debugUtils())
+        s.setName = reinterpret_cast<PFN_vkSetDebugUtilsObjectNameEXT>(
+            vkGetInstanceProcAddr(s.instance.handle(), "vkSetDebugUtilsObjectNameEXT"));
+}
+
+Device::~Device() {
+    if (state_->abandoned) static_cast<void>(state_.release()); // it goes with the process
+}
+
+const DeviceDescription& Device::description() const {
+    return state_->physical.description;
+}
+bool Device::isCpu() const {
+    return state_->physical.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
+}
+uint32_t Device::subgroupSize() const {
+    return state_->subgroupSize;
+}
+uint32_t Device::nativeSubgroupSize() const {
+    return description().subgroupSize;
+}
+bool Device::canPinSubgroupSize() const {
+    return state_->physical.subgroupSizeControl;
+}
+bool Device::texelRecords() const {
+    return state_->texelRecords;
+}
+const OptionalFeatures& Device::features() const {
+    return state_->physical.features;
+}
+const VkPhysicalDeviceLimits& Device::limits() const {
+    return state_->physical.properties.limits;
+}
+uint64_t Device::memoryUsed() const {
+    return state_->memoryUsed;
+}
+uint64_t Device::memoryBudget() const {
+    return state_->memoryBudget;
+}
+uint64_t Device::validationMessages() const {
+    return state_->instance.messages();
+}
+bool Device::abandoned() const {
+    return state_->abandoned;
+}
+VkInstance Device::instance() const {
+    return state_->instance.handle();
+}
+VkPhysicalDevice Device::physical() const {
+    return state_->physical.handle;
+}
+VkDevice Device::handle() const {
+    return state_->device;
+}
+VkQueue Device::queue() const {
+    return state_->queue;
+}
+uint32_t Device::queueFamily() const {
+    return state_->physical.queueFamily;
+}
+float Device::timestampPeriodNs() const {
+    return state_->physical.timestampBits > 0 ? limits().timestampPeriod : 0.0f;
+}
+
+void Device::plan(const std::vector<PlannedBuffer>& buffers) const {
+    std::vector<PlannedBuffer> sorted = buffers;
+    std::sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.bytes > b.bytes; });
+    const uint64_t sum = std::accumulate(buffers.begin(), buffers.end(), uint64_t{0},
+                                         [](uint64_t total, const auto& b) { return total + b.bytes; });
+    std::string largest;
+    for (const PlannedBuffer& buffer : std::span(sorted).first(std::min<size_t>(sorted.size(), 3)))
+        largest += fmt::format("{}{} {:.1f}", largest.empty() ? "" : ", ", buffer.name,
+                               static_cast<double>(buffer.bytes) / kMiB);
+    const double used = static_cast<double>(memoryUsed()) / kMiB;
+    const double budget = static_cast<double>(memoryBudget()) / kMiB;
+    fmt::print(stderr, "memory: {:.1f} MiB planned ({}), {:.1f} used, budget {:.0f}\n",
+               static_cast<double>(sum) / kMiB, largest, used, budget);
+    if (sum > memoryBudget() - std::min(memoryUsed(), memoryBudget()))
+        fail(
+            ExitCode::OutOfMemory,
+            "{}: {:.1f} MiB are planned and {:.1f} MiB used, more than the budget of {:.1f} MiB; largest: {}",
+            description().name, static_cast<double>(sum) / kMiB, used, budget, largest);
+}
+
+VkDeviceMemory Device::allocate(VkBuffer buffer, bool hostVisible, const std::string& name,
+                                uint64_t& allocated) {
+    VkMemoryRequirements needs{};
+    vkGetBufferMemoryRequirements(handle(), buffer, &needs);
+    const double size = static_cast<double>(needs.size) / kMiB;
+    if (needs.size > memoryBudget() - std::min(memoryUsed(), memoryBudget()))
+        fail(ExitCode::OutOfMemory,
+             "buffer {}: {:.1f} MiB do not fit the budget of {:.1f} MiB, of which {:.1f} are used", name,
+             size, static_cast<double>(memoryBudget()) / kMiB, static_cast<double>(memoryUsed()) / kMiB);
+    if (needs.size > state_->physical.maxAllocation)
+        fail(ExitCode::OutOfMemory,
+             "buffer {}: {:.1f} MiB are more than the device allocates at once ({:.1f} MiB)", name, size,
+             static_cast<double>(state_->physical.maxAllocation) / kMiB);
+
+    constexpr VkMemoryPropertyFlags kMapped =
+        VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+    const VkMemoryPropertyFlags required = hostVisible ? kMapped : 0;
+    const VkMemoryPropertyFlags wanted = hostVisible
+                                             ? VK_MEMORY_PROPERTY_HOST_CACHED_BIT | kMapped
+                                             : VkMemoryPropertyFlags{VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT};
+    VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
+    info.allocationSize = needs.size;
+    info.memoryTypeIndex = findMemoryType(state_->memory, needs.memoryTypeBits, required, wanted);
+    if (info.memoryTypeIndex == UINT32_MAX)
+        fail(ExitCode::Internal, "buffer {}: no memory type fits it", name);
+    VkDeviceMemory memory = VK_NULL_HANDLE;
+    check(vkAllocateMemory(handle(), &info, nullptr, &memory),
+          fmt::format("buffer {}: {:.1f} MiB", name, size));
+    allocated = needs.size;
+    state_->memoryUsed += needs.size;
+    return memory;
+}
+
+void Device::release(VkDeviceMemory memory, uint64_t allocated) {
+    vkFreeMemory(handle(), memory, nullptr);
+    state_->memoryUsed -= allocated;
+}
+
+void Device::submitAndWait(VkCommandBuffer commands, const std::string& what, double timeoutSeconds) const {
+    State& s = *state_;
+    check(vkResetFences(s.device, 1, &s.fence), what);
+    VkSubmitInfo submit{VK_STRUCTURE_TYPE_SUBMIT_INFO};
+    submit.commandBufferCount = 1;
+    submit.pCommandBuffers = &commands;
+    VkResult result = vkQueueSubmit(s.queue, 1, &submit, s.fence);
+    if (result == VK_SUCCESS)
+        result = vkWaitForFences(s.device, 1, &s.fence, VK_TRUE, static_cast<uint64_t>(timeoutSeconds * 1e9));
+    if (result == VK_TIMEOUT) {
+        s.abandoned = true;
+        fail(ExitCode::Internal, "{}: {} did not finish within {} s", what, description().name,
+             timeoutSeconds);
+    }
+    if (result == VK_ERROR_DEVICE_LOST) fail(ExitCode::Internal, "{}: {} was lost", what, description().name);
+    check(result, what);
+}
+
+void Device::label(VkObjectType type, uint64_t object, const std::string& name) const {
+    if (!state_->setName) return;
+    VkDebugUtilsObjectNameInfoEXT info{VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT};
+    info.objectType = type;
+    info.objectHandle = object;
+    info.pObjectName = name.c_str();
+    state_->setName(handle(), &info);
+}
+
+} // namespace irradia

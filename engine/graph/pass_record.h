@@ -1,0 +1,38 @@
+// A pass as the frame graph keeps it between its declaration and its execution.
+#pragma once
+
+#include "engine/graph/frame_graph.h"
+#include <array>
+#include <optional>
+
+namespace irradia {
+
+struct PassBinding {
+    BufferRange range;
+    bool read = false;
+    bool write = false;
+};
+
+struct PassRecord {
+    enum class Command { None, Dispatch, DispatchIndirect, Fill, Copy };
+
+    std::string name;
+    const Kernel* kernel = nullptr; // none for fills and copies
+    std::vector<PassBinding> bindings;
+    std::array<std::byte, 128> push{};
+    uint32_t pushBytes = 0;
+    Command command = Command::None;
+    uint32_t groups = 0;                 // Dispatch
+    std::optional<BufferRange> argument; // DispatchIndirect: group counts; Copy: the source
+    std::optional<BufferRange> target;   // Fill, Copy
+    uint32_t value = 0;                  // Fill
+    bool cutBefore = false;
+};
+
+// Throws Error(Internal) naming pass and binding where the bindings or push constants are not the kernel's.
+void checkAgainstKernel(const PassRecord& pass, const Device& device);
+
+// What the pass accesses, for the schedule.
+ScheduledPass accessesOf(const PassRecord& pass);
+
+} // namespace irradia

@@ -1,0 +1,104 @@
+#include "engine/error.h"
+#include "engine/scene/gltf_json_guard.h"
+#include "engine/scene/load_scene.h"
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace irradia {
+namespace {
+
+using Json = nlohmann::json;
+
+// "camera.json: camera.position" for errors.
+struct Field {
+    const std::filesystem::path& file;
+    std::string name;
+
+    [[noreturn]] void refuse(const std::string& need) const {
+        fail(ExitCode::BadData, "{}: '{}' must be {}", file.string(), name, need);
+    }
+};
+
+glm::dvec3 vector(const Json& value, const Field& field) {
+    if (!value.is_array() || value.size() != 3) field.refuse("three numbers");
+    glm::dvec3 result;
+    for (int c = 0; c < 3; ++c) {
+        if (!value[c].is_number()) field.refuse("three numbers");
+        result[c] = value[c].get<double>();
+        if (std::abs(result[c]) > 1e30) field.refuse("three numbers below 1e30");
+    }
+    return result;
+}
+
+const Json& member(const Json& object, const std::string& key, const std::filesystem::path& file) {
+    if (!object.contains(key)) fail(ExitCode::BadData, "{}: 'camera.{}' is missing", file.string(), key);
+    return object[key];
+}
+
+Camera readCamera(const Json& json, const std::filesystem::path& file) {
+    const auto read = [&](const std::string& key) {
+        return vector(member(json, key, file), {file, "camera." + key});
+    };
+    const glm::dvec3 position = read("position");
+    const glm::dvec3 forward = read("look_at") - position;
+    const glm::dvec3 right = glm::cross(forward, json.contains("up") ? read("up") : glm::dvec3(0, 1, 0));
+    if (!(glm::length(forward) > 0)) Field{file, "camera.look_at"}.refuse("another point than the position");
+    if (!(glm::length(right) > 1e-9 * glm::length(forward)))
+        Field{file, "camera.up"}.refuse("a direction across the view");
+    const Json& fov = member(json, "vfov_deg", file);
+    if (!fov.is_number() || !(fov.get<double>() > 1e-4 && fov.get<double>() < 180))
+        Field{file, "camera.vfov_deg"}.refuse("an angle between 0 and 180 degrees");
+
+    Camera camera;
+    camera.name = file.stem().string();
+    camera.position = position;
+    camera.forward = glm::normalize(forward);
+    camera.up = glm::normalize(glm::cross(right, forward));
+    camera.verticalFov = static_cast<float>(glm::radians(fov.get<double>()));
+    return camera;
+}
+
+// A path beside the file, a colour as "r,g,b", or nothing.
+std::string readEnvironment(const Json& value, const std::filesystem::path& file) {
+    if (value.is_null()) return {};
+    if (value.is_string()) return (file.parent_path() / value.get<std::string>()).string();
+    const glm::dvec3 colour = vector(value, {file, "env"});
+    return fmt::format("{},{},{}", colour.x, colour.y, colour.z);
+}
+
+std::string cameraNames(const Scene& scene) {
+    std::string names;
+    for (const Camera& camera : scene.cameras) names += (names.empty() ? "'" : ", '") + camera.name + "'";
+    return names.empty() ? "no camera" : names;
+}
+
+} // namespace
+
+CameraFile loadCameraFile(const std::filesystem::path& file) {
+    const gltf::SourceFile source = gltf::openSource(file);
+    const char* text = reinterpret_cast<const char*>(source.bytes.data());
+    gltf::guardJson(source, {text, source.bytes.size()}, gltf::Schema::Any);
+    const Json json = Json::parse(text, text + source.bytes.size());
+    if (!json.is_object() || !json.contains("camera") || !json["camera"].is_object())
+        fail(ExitCode::BadData, "{}: there is no object 'camera'", file.string());
+    return {readCamera(json["camera"], file),
+            json.contains("env") ? readEnvironment(json["env"], file) : std::string()};
+}
+
+CameraFile chooseCamera(const Scene& scene, const std::string& choice) {
+    if (choice.empty())
+        return {scene.cameras.empty() ? framingCamera(sceneBounds(scene)) : scene.cameras.front(), {}};
+    if (choice.ends_with(".json")) return loadCameraFile(choice);
+    const auto named = std::find_if(scene.cameras.begin(), scene.cameras.end(),
+                                    [&](const Camera& camera) { return camera.name == choice; });
+    if (named != scene.cameras.end()) return {*named, {}};
+    size_t index = 0;
+    const auto [end, error] = std::from_chars(choice.data(), choice.data() + choice.size(), index);
+    if (error == std::errc() && end == choice.data() + choice.size() && index < scene.cameras.size())
+        return {scene.cameras[index], {}};
+    fail(ExitCode::NotFound, "camera '{}': the scene '{}' has {}", choice, scene.name, cameraNames(scene));
+}
+
+} // namespace irradia

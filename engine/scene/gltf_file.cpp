@@ -1,0 +1,75 @@
+#include "engine/scene/gltf_file.h"
+
+#include "engine/image/read_file.h"
+#include <algorithm>
+#include <charconv>
+
+namespace irradia::gltf {
+namespace {
+
+std::vector<uint8_t> readCapped(const std::filesystem::path& file) {
+    requireFile(file);
+    const uint64_t size = std::filesystem::file_size(file);
+    if (size > kMaxFileBytes)
+        fail(ExitCode::BadData, "{}: {} bytes are more than the {} allowed", file.string(), size,
+             kMaxFileBytes);
+    if (size == 0) fail(ExitCode::BadData, "{}: the file is empty", file.string());
+    return readFile(file);
+}
+
+bool isInside(const std::filesystem::path& folder, const std::filesystem::path& file) {
+    const auto [end, rest] = std::mismatch(folder.begin(), folder.end(), file.begin(), file.end());
+    return end == folder.end() && rest != file.end();
+}
+
+// The start of a URI for an error: data URIs are long.
+std::string shortened(const std::string& uri) {
+    constexpr size_t kShown = 80;
+    return uri.size() <= kShown ? uri : uri.substr(0, kShown) + "...";
+}
+
+} // namespace
+
+SourceFile openSource(const std::filesystem::path& file) {
+    return {file, readCapped(file)};
+}
+
+std::string decodeUri(std::string_view uri) {
+    std::string text;
+    for (size_t i = 0; i < uri.size(); ++i) {
+        unsigned char code = 0;
+        if (uri[i] == '%' && i + 2 < uri.size() &&
+            std::from_chars(&uri[i + 1], &uri[i + 1] + 2, code, 16).ptr == &uri[i + 1] + 2) {
+            text += static_cast<char>(code);
+            i += 2;
+        } else {
+            text += uri[i];
+        }
+    }
+    return text;
+}
+
+std::filesystem::path resolveUri(const SourceFile& source, const std::string& decodedUri) {
+    const std::filesystem::path relative(decodedUri);
+    const bool climbs = std::find(relative.begin(), relative.end(), "..") != relative.end();
+    if (decodedUri.empty() || relative.is_absolute() || climbs || decodedUri.find(':') != std::string::npos ||
+        decodedUri.find('\0') != std::string::npos)
+        source.refuse("uri '{}' is not a plain path inside the scene's folder", shortened(decodedUri));
+
+    std::error_code error;
+    const auto folder = std::filesystem::weakly_canonical(source.path, error).parent_path();
+    const auto file = std::filesystem::weakly_canonical(folder / relative, error);
+    if (error || !isInside(folder, file))
+        source.refuse("uri '{}' leads outside the scene's folder", shortened(decodedUri));
+    return file;
+}
+
+std::vector<uint8_t> readBeside(const SourceFile& source, const std::string& decodedUri) {
+    return readCapped(resolveUri(source, decodedUri));
+}
+
+std::string label(std::string_view kind, size_t index, const std::string& name) {
+    return name.empty() ? fmt::format("{} {}", kind, index) : fmt::format("{} {} '{}'", kind, index, name);
+}
+
+} // namespace irradia::gltf

@@ -1,0 +1,100 @@
+#include "engine/scene/gltf_parse.h"
+
+#include "engine/scene/gltf_features.h"
+#include "engine/scene/gltf_json_guard.h"
+#include <exception>
+#include <sstream>
+
+namespace irradia::gltf {
+namespace {
+
+// Where the callbacks find the scene's folder, and leave an Error: tinygltf knows only success and failure.
+struct FileAccess {
+    const SourceFile& source;
+    std::exception_ptr error;
+};
+
+// tinygltf looks for a uri first as it stands, then in "."; the first look decides.
+bool fileExists(const std::string& uri, void* user) {
+    auto& access = *static_cast<FileAccess*>(user);
+    if (access.error) return false;
+    try {
+        resolveUri(access.source, uri);
+        return true;
+    } catch (...) {
+        access.error = std::current_exception();
+        return false;
+    }
+}
+
+std::string sameName(const std::string& uri, void*) {
+    return uri;
+}
+
+bool readWholeFile(std::vector<unsigned char>* out, std::string*, const std::string& uri, void* user) {
+    auto& access = *static_cast<FileAccess*>(user);
+    try {
+        *out = readBeside(access.source, uri);
+        return true;
+    } catch (...) {
+        access.error = std::current_exception();
+        return false;
+    }
+}
+
+// Keeps what a data URI held. The bytes of a buffer view are unchecked here and are read later.
+bool keepEncoded(tinygltf::Image* image, const int, std::string*, std::string*, int, int,
+                 const unsigned char* bytes, int size, void*) {
+    image->as_is = true;
+    if (image->bufferView < 0) image->image.assign(bytes, bytes + size);
+    return true;
+}
+
+// tinygltf notes in `err` what it left out and goes on. Only two such notes are harmless: animations are not
+// read here, and a skin without inverseBindMatrices is valid.
+void refuseOmissions(const SourceFile& source, const std::string& errors) {
+    std::istringstream lines(errors);
+    for (std::string line; std::getline(lines, line);)
+        if (!line.empty() && line != "." && line.find("inverseBindMatrices") == std::string::npos &&
+            line.find("nimation") == std::string::npos && line.find("'node' property") == std::string::npos)
+            source.refuse("{}", line);
+}
+
+std::string firstLine(const std::string& text) {
+    return text.substr(0, text.find('\n'));
+}
+
+} // namespace
+
+tinygltf::Model parseModel(const SourceFile& source, SceneNotes& notes) {
+    const std::string_view json = jsonText(source);
+    refuseUnknownExtensions(source, guardJson(source, json).extensionsRequired);
+
+    FileAccess access{source, nullptr};
+    tinygltf::TinyGLTF reader;
+    reader.SetFsCallbacks({fileExists, sameName, readWholeFile, nullptr, &access});
+    reader.SetImageLoader(keepEncoded, nullptr);
+
+    tinygltf::Model model;
+    std::string errors, warnings;
+    bool parsed = false;
+    try {
+        const auto size = static_cast<unsigned int>(source.bytes.size());
+        parsed = isBinary(source)
+                     ? reader.LoadBinaryFromMemory(&model, &errors, &warnings, source.bytes.data(), size)
+                     : reader.LoadASCIIFromString(&model, &errors, &warnings, json.data(), size, "");
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception& exception) { // std::out_of_range, nlohmann's type errors
+        source.refuse("{}", exception.what());
+    }
+    if (access.error) std::rethrow_exception(access.error);
+    if (!parsed) source.refuse("{}", firstLine(errors));
+    refuseOmissions(source, errors);
+    if (!warnings.empty()) notes.warnings.push_back(firstLine(warnings));
+    if (model.asset.version.substr(0, 2) != "2.")
+        source.refuse("UNKNOWN_ASSET_MAJOR_VERSION: glTF {}, only 2 can be read", model.asset.version);
+    return model;
+}
+
+} // namespace irradia::gltf

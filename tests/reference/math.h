@@ -2,6 +2,7 @@
 // frame.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
 #include <numbers>
@@ -14,7 +15,7 @@ using Vec3 = glm::dvec3;
 constexpr double kPi = std::numbers::pi;
 
 inline double maxComponent(const Vec3& v) {
-    return std::fmax(v.x, std::fmax(v.y, v.z));
+    return std::max(v.x, std::max(v.y, v.z));
 }
 
 // Rec. 709 luminance of a linear colour.

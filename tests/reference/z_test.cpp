@@ -12,11 +12,11 @@ struct PixelTests {
     int worstPixel = 0;
 };
 
-// z = difference / sqrt(sum of variances), two-sided, each pixel at Sidak's level for all pixels. NaN is
+// z = difference / sqrt(sum of variances), two-sided, each at Sidak's level for all of them. NaN is
 // refused.
 PixelTests testPixels(const ImageEstimate& first, const ImageEstimate& second,
                       const ZTestSettings& settings) {
-    const double level = sidakLevel(settings.alpha, first.size());
+    const double level = sidakLevel(settings.alpha, 3 * first.size());
     PixelTests result;
     size_t accepted = 0;
     for (size_t i = 0; i < first.size(); ++i)

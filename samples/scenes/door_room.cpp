@@ -20,8 +20,8 @@ struct Materials {
 
 Materials addMaterials(GlbWriter& glb) {
     return {
-        .wall = glb.addMaterial({.name = "wall", .baseColor = {0.72f, 0.7f, 0.66f}}),
-        .litWall = glb.addMaterial({.name = "lit wall", .baseColor = {0.82f, 0.74f, 0.6f}}),
+        .wall = glb.addMaterial({.name = "wall", .baseColor = {0.8f, 0.78f, 0.74f}}),
+        .litWall = glb.addMaterial({.name = "lit wall", .baseColor = {0.85f, 0.79f, 0.68f}}),
         .floor = glb.addMaterial({.name = "floor", .baseColor = {0.38f, 0.25f, 0.16f}, .roughness = 0.35f}),
         .wood = glb.addMaterial({.name = "wood", .baseColor = {0.5f, 0.33f, 0.2f}, .roughness = 0.5f}),
         .brass = glb.addMaterial(
@@ -32,7 +32,7 @@ Materials addMaterials(GlbWriter& glb) {
         .clay = glb.addMaterial({.name = "clay", .baseColor = {0.65f, 0.3f, 0.2f}}),
         .plaster = glb.addMaterial({.name = "plaster", .baseColor = glm::vec3(0.8f)}),
         .lamp = glb.addMaterial(
-            {.name = "lamp", .baseColor = glm::vec3(0.0f), .emission = {48.0f, 42.0f, 34.0f}}),
+            {.name = "lamp", .baseColor = glm::vec3(0.0f), .emission = {150.0f, 132.0f, 108.0f}}),
         .case_ = glb.addMaterial({.name = "lamp case", .baseColor = glm::vec3(0.3f)}),
     };
 }

@@ -86,10 +86,7 @@ void addBookshelf(GlbWriter& glb, const glm::mat4& place, int wood, std::span<co
     shelf.append(box({-halfWidth, 0.02f, -0.5f * depth - 0.01f}, {halfWidth, 2.09f, -0.5f * depth + 0.008f}));
     glb.add("bookshelf", shelf, wood, place);
 
-    // Books are scaled copies of a unit box, one mesh a material.
-    const Mesh unit = roundedBox(glm::vec3(0.5f), 0.06f, 1);
-    std::vector<int> books;
-    for (int material : bookMaterials) books.push_back(glb.addMesh("book", unit, material));
+    std::vector<Mesh> books(bookMaterials.size());
     Random random(7);
     for (int row = 0; row < 5; row++) {
         const float floor = 0.0405f + storey * static_cast<float>(row);
@@ -99,10 +96,11 @@ void addBookshelf(GlbWriter& glb, const glm::mat4& place, int wood, std::span<co
                                  random.between(0.16f, 0.22f));
             const auto which = static_cast<size_t>(random.between(0.0f, static_cast<float>(books.size())));
             const glm::vec3 centre(x + 0.5f * size.x, floor + 0.5f * size.y, 0.12f - 0.5f * size.z);
-            glb.addNode("book", books[which], place * translation(centre) * scaling(size));
+            books[which].append(roundedBox(0.5f * size, 0.004f, 1), translation(centre));
             x += size.x + 0.002f;
         }
     }
+    for (size_t i = 0; i < books.size(); i++) glb.add("books", books[i], bookMaterials[i], place);
 }
 
 void addPlant(GlbWriter& glb, const glm::mat4& place, PlantMaterials m) {

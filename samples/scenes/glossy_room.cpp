@@ -15,8 +15,8 @@ namespace {
 
 constexpr Room kRoom{{-2.5f, 0.0f, -2.2f}, {2.5f, 2.8f, 2.4f}};
 constexpr Rectangle kWindow{{-1.5f, 0.7f}, {1.3f, 2.4f}}; // (z, y) in the wall at lower.x
-constexpr glm::vec3 kEye{1.3f, 1.55f, 2.25f}, kTarget{-0.45f, 0.55f, -0.6f};
-constexpr float kFovDegrees = 55.0f;
+constexpr glm::vec3 kEye{0.9f, 1.5f, 2.25f}, kTarget{-0.5f, 0.6f, -0.8f};
+constexpr float kFovDegrees = 58.0f;
 
 // Radiance from a direction: a gradient, a ground, and a sun of 6 degrees with a soft edge, its radiance
 // moderate so that pictures converge.
@@ -108,17 +108,16 @@ void addMetals(GlbWriter& glb) {
                                            {0.93f, 0.64f, 0.54f},   // copper
                                            {0.66f, 0.66f, 0.68f},   // steel
                                            {0.91f, 0.92f, 0.92f}}}; // aluminium
-    const Mesh ball = sphere(0.3f, 64, 32);
-    const Mesh plate = roundedBox({0.36f, 0.5f, 0.015f}, 0.01f, 3);
+    const Mesh ball = sphere(0.27f, 64, 32);
+    const Mesh plate = roundedBox({0.34f, 0.5f, 0.015f}, 0.01f, 3);
     for (size_t i = 0; i < roughness.size(); i++) {
         const int metal = glb.addMaterial({.name = fmt::format("metal {}", roughness[i]),
                                            .baseColor = colors[i],
                                            .metallic = 1.0f,
                                            .roughness = roughness[i]});
-        const float x = -1.7f + 0.75f * static_cast<float>(i);
+        const float x = -1.7f + 0.7f * static_cast<float>(i);
         const glm::mat4 leaning = translation({x, 0.492f, -2.04f}) * rotationX(-15.0f);
-        const float forward = i % 2 == 0 ? 0.0f : 0.45f;
-        glb.add(fmt::format("ball {}", i), ball, metal, translation({x, 0.302f, -0.55f + forward}));
+        glb.add(fmt::format("ball {}", i), ball, metal, translation({x, 0.272f, -0.6f}));
         glb.add(fmt::format("plate {}", i), plate, metal, leaning);
     }
 }

@@ -47,15 +47,15 @@ void addShell(GlbWriter& glb) {
 
 void addLights(GlbWriter& glb) {
     const int sky = glb.addMaterial(
-        {.name = "window light", .baseColor = glm::vec3(0.0f), .emission = {14.0f, 15.5f, 17.0f}});
+        {.name = "window light", .baseColor = glm::vec3(0.0f), .emission = {8.0f, 9.0f, 10.0f}});
     const int bulb =
-        glb.addMaterial({.name = "bulb", .baseColor = glm::vec3(0.0f), .emission = {75.0f, 57.0f, 36.0f}});
+        glb.addMaterial({.name = "bulb", .baseColor = glm::vec3(0.0f), .emission = {45.0f, 34.0f, 22.0f}});
     const int shade = glb.addMaterial({.name = "lamp shade", .baseColor = {0.75f, 0.68f, 0.55f}});
-    // The window light fills the opening's outer edge.
+    // The window light fills the opening's outer end.
+    const glm::vec2 opening = kWindow.upper - kWindow.lower;
     glb.add("window light",
-            quad({kRoom.lower.x - kWallThickness - 0.01f, kWindow.lower.y - 0.05f, kWindow.upper.x + 0.05f},
-                 {0.0f, 0.0f, kWindow.lower.x - kWindow.upper.x - 0.1f},
-                 {0.0f, kWindow.upper.y - kWindow.lower.y + 0.1f, 0.0f}),
+            quad({kRoom.lower.x - kWallThickness + 0.01f, kWindow.lower.y, kWindow.upper.x},
+                 {0.0f, 0.0f, -opening.x}, {0.0f, opening.y, 0.0f}),
             sky);
     const glm::mat4 hanging = translation({0.2f, 1.95f, -0.1f});
     // A cone's frustum open at both ends: an outline that returns to its start.

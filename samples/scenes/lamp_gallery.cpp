@@ -15,24 +15,26 @@ constexpr Room kHall{{-6.0f, 0.0f, -2.5f}, {6.0f, 3.6f, 2.5f}};
 constexpr uint32_t kPanelsAlong = 25, kPanelsAcross = 10;
 constexpr uint32_t kStrings = 50, kLampsPerString = 5;
 
-// One panel and one octahedron for each of the lamps' materials.
+constexpr size_t kColors = 8, kRadiances = 4;
+
+// One panel and one octahedron for each of the lamps' materials, eight colours after one another.
 struct LampMeshes {
     std::vector<int> panels, octahedra;
 };
 
 LampMeshes addLampMeshes(GlbWriter& glb) {
-    const std::array<glm::vec3, 8> colors{{{1.0f, 0.85f, 0.65f},
-                                           {1.0f, 0.6f, 0.3f},
-                                           {1.0f, 0.25f, 0.2f},
-                                           {0.4f, 1.0f, 0.45f},
-                                           {0.3f, 0.75f, 1.0f},
-                                           {0.35f, 0.4f, 1.0f},
-                                           {0.9f, 0.4f, 1.0f},
-                                           {0.9f, 0.95f, 1.0f}}};
+    const std::array<glm::vec3, kColors> colors{{{1.0f, 0.85f, 0.65f},
+                                                 {1.0f, 0.6f, 0.3f},
+                                                 {1.0f, 0.25f, 0.2f},
+                                                 {0.4f, 1.0f, 0.45f},
+                                                 {0.3f, 0.75f, 1.0f},
+                                                 {0.35f, 0.4f, 1.0f},
+                                                 {0.9f, 0.4f, 1.0f},
+                                                 {0.9f, 0.95f, 1.0f}}};
     const Mesh panel = quad({-0.06f, 0.0f, -0.06f}, {0.12f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.12f}); // facing down
     const Mesh drop = octahedron(0.045f);
     LampMeshes meshes;
-    for (float radiance : {3.0f, 8.0f, 20.0f, 50.0f}) {
+    for (float radiance : std::array<float, kRadiances>{2.0f, 5.0f, 12.0f, 30.0f}) {
         for (size_t i = 0; i < colors.size(); i++) {
             const int material = glb.addMaterial({.name = fmt::format("lamp {} {}", i, radiance),
                                                   .baseColor = glm::vec3(0.0f),
@@ -52,13 +54,18 @@ float spread(uint32_t i, uint32_t n, float lower, float upper) {
 void addLamps(GlbWriter& glb) {
     const LampMeshes meshes = addLampMeshes(glb);
     Random random(500);
-    const auto any = [&](const std::vector<int>& list) {
-        return list[static_cast<size_t>(random.between(0.0f, static_cast<float>(list.size())))];
+    // Any radiance; colours change along the hall.
+    const auto choose = [&](const std::vector<int>& list, float x) {
+        const float along = (x - kHall.lower.x) / (kHall.upper.x - kHall.lower.x);
+        const float color = along * static_cast<float>(kColors) + random.between(-0.8f, 0.8f);
+        const auto column = static_cast<size_t>(glm::clamp(color, 0.0f, static_cast<float>(kColors - 1)));
+        const auto row = static_cast<size_t>(random.between(0.0f, static_cast<float>(kRadiances)));
+        return list[row * kColors + column];
     };
     for (uint32_t i = 0; i < kPanelsAlong * kPanelsAcross; i++) {
         const float x = spread(i / kPanelsAcross, kPanelsAlong, kHall.lower.x, kHall.upper.x);
         const float z = spread(i % kPanelsAcross, kPanelsAcross, kHall.lower.z, kHall.upper.z);
-        glb.addNode("panel", any(meshes.panels), translation({x, kHall.upper.y - 0.01f, z}));
+        glb.addNode("panel", choose(meshes.panels, x), translation({x, kHall.upper.y - 0.01f, z}));
     }
     const int cord = glb.addMaterial({.name = "cord", .baseColor = glm::vec3(0.15f)});
     const int cordMesh = glb.addMesh("cord", frustum(0.004f, 0.004f, 1.0f, 6), cord);
@@ -72,7 +79,7 @@ void addLamps(GlbWriter& glb) {
                     translation({x, lowest, z}) * scaling({1.0f, kHall.upper.y + 0.05f - lowest, 1.0f}));
         for (uint32_t lamp = 0; lamp < kLampsPerString; lamp++) {
             const float y = spread(lamp, kLampsPerString, lowest - 0.1f, kHall.upper.y - 0.2f);
-            glb.addNode("drop", any(meshes.octahedra),
+            glb.addNode("drop", choose(meshes.octahedra, x),
                         translation({x, y, z}) * rotationY(random.between(0.0f, 90.0f)));
         }
     }

@@ -6,12 +6,13 @@
 #include "shared/types.h"
 SHARED_BEGIN
 
-// A subgroup owns kRaysPerLane x subgroup size consecutive rays of the queue and refills its lanes from them.
+// A subgroup owns kRaysPerLane x subgroup size consecutive rays of the queue and refills its lanes from them: a
+// dispatch needs count / (kRaysPerLane * workgroup size) groups, rounded up.
 SHARED_CONST uint kRaysPerLane = 32u;
 
 struct TraceParams {
     uint counter; // which of the QueueCounters holds the number of rays
-    uint rootBase; // first node record index of the root (see shared/bvh.h)
+    uint root;    // item of the root (see shared/bvh.h)
 };
 
 SHARED_END

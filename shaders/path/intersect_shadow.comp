@@ -1,0 +1,37 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Whether anything lies on each shadow ray of the queue. A lane whose ray has ended takes the next of its subgroup's.
+#include "lib/kernel.glsl"
+#include "shared/trace.h"
+
+RECORDS_READ(0, bvh);
+RECORDS_READ(1, rays);
+COUNTERS_READ(2, counters);
+WORDS_WRITE(3, visibility);
+layout(push_constant) uniform Push { TraceParams params; };
+
+#include "lib/bvh.glsl"
+
+Traversal takeRay(uint slot) {
+    uvec4 origin = loadRecord(rays, slot * kShadowRayRecords);
+    uvec4 direction = loadRecord(rays, slot * kShadowRayRecords + 1u);
+    return beginTraversal(params.root, uintBitsToFloat(origin.xyz), uintBitsToFloat(direction.xyz),
+                          uintBitsToFloat(origin.w));
+}
+
+void main() {
+    uint slot = firstSlot();
+    uint end = min(counters[params.counter], slot - gl_SubgroupInvocationID + kSubgroupSize * kRaysPerLane);
+    bool working = slot < end;
+    Traversal ray;
+    if (working) ray = takeRay(slot);
+    while (working) {
+        traversalStep(ray, true);
+        if (ray.item == kEndOfTraversal) {
+            storeWord(visibility, slot, ray.primitive == kNoPrimitive ? 1u : 0u);
+            slot += kSubgroupSize;
+            working = slot < end;
+            if (working) ray = takeRay(slot);
+        }
+    }
+}

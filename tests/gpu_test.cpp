@@ -6,7 +6,6 @@
 #include <catch2/matchers/catch_matchers_exception.hpp>
 #include <catch2/matchers/catch_matchers_string.hpp>
 #include <glm/glm.hpp>
-#include <memory>
 #include <numeric>
 
 using namespace irradia;
@@ -15,15 +14,16 @@ using Catch::Matchers::MessageMatches;
 
 namespace {
 
-// One device per form of the records for all tests: making one under validation takes a while.
+// One device per form of the records for all tests: making one under validation takes a while. They are never
+// destroyed, since at exit the validation layer is gone before them.
 Device& deviceWith(RecordAccess records) {
-    static std::unique_ptr<Device> devices[2];
-    std::unique_ptr<Device>& device = devices[records == RecordAccess::Texel ? 0 : 1];
+    static Device* devices[2] = {};
+    Device*& device = devices[records == RecordAccess::Texel ? 0 : 1];
     if (!device) {
         DeviceOptions options;
         options.validation = true;
         options.records = records;
-        device = std::make_unique<Device>(options);
+        device = new Device(options);
     }
     return *device;
 }
@@ -346,4 +346,31 @@ TEST_CASE("the profiler has a row for each pass, and slices change no result") {
     }
     CHECK(results[0] == results[1]);
     CHECK(device.validationMessages() == 0);
+}
+
+TEST_CASE("a submission that takes too long is given up, and the pass at work named") {
+    // A device of its own: nothing of it can be used or freed afterwards.
+    Device device({.validation = true});
+    const Kernel spin(device, kernels::gpu_spin, {});
+    const Buffer state(device, "state", 1024 * 4);
+    FrameGraph graph(device);
+    graph.pass(spin, "compiles").readWrite(state).push(uint32_t{1}).dispatch(1024);
+    graph.execute();
+    graph.setTimeout(0.2);
+    graph.pass(spin, "short").readWrite(state).push(uint32_t{1}).dispatch(1024);
+    graph.pass(spin, "long").readWrite(state).push(uint32_t{1'000'000}).dispatch(1024);
+    graph.pass(spin, "never").readWrite(state).push(uint32_t{1}).dispatch(1024);
+    requireRefusal(ExitCode::Internal, "did not finish within 0.2 s; the last pass was long",
+                   [&] { graph.execute(); });
+    CHECK(device.abandoned());
+}
+
+TEST_CASE("validation messages are counted") {
+    Device device({.validation = true});
+    REQUIRE(device.validationMessages() == 0);
+    VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO}; // of no bytes and no usage
+    VkBuffer buffer = VK_NULL_HANDLE;
+    if (vkCreateBuffer(device.handle(), &info, nullptr, &buffer) == VK_SUCCESS)
+        vkDestroyBuffer(device.handle(), buffer, nullptr);
+    CHECK(device.validationMessages() > 0);
 }

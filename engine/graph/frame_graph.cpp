@@ -3,6 +3,7 @@
 #include "engine/gpu/commands.h"
 #include "engine/graph/barrier.h"
 #include "engine/graph/descriptor_sets.h"
+#include "engine/graph/progress.h"
 #include "engine/graph/slices.h"
 #include "engine/graph/timestamps.h"
 #include <bit>
@@ -30,7 +31,8 @@ struct FrameGraph::State {
         : device(d)
         , profiler(p)
         , sets(d)
-        , timestamps(d) {}
+        , timestamps(d)
+        , progress(d) {}
     ~State();
 
     PassRecord& add(const std::string& name);
@@ -49,6 +51,7 @@ struct FrameGraph::State {
     bool cutNext = false;
     DescriptorSets sets;
     Timestamps timestamps;
+    Progress progress;
     VkCommandPool pool = VK_NULL_HANDLE;
     VkCommandBuffer commands = VK_NULL_HANDLE;
     PFN_vkCmdBeginDebugUtilsLabelEXT beginLabel = nullptr;
@@ -158,6 +161,7 @@ void FrameGraph::State::beginSubmission(uint32_t passCount) {
     check(vkBeginCommandBuffer(commands, &begin), "vkBeginCommandBuffer");
     orderAfterEarlierSubmissions(commands);
     timestamps.begin(commands, passCount);
+    progress.begin(passCount);
 }
 
 void FrameGraph::State::submit(size_t first, size_t end) {
@@ -165,8 +169,8 @@ void FrameGraph::State::submit(size_t first, size_t end) {
     try {
         device.submitAndWait(commands, passes[first].name + " to " + passes[end - 1].name, timeoutSeconds);
     } catch (const Error& error) {
-        const size_t last = std::min(first + timestamps.passesDone(), end - 1);
-        fail(error.code(), "{}; the last pass was {}", error.what(), passes[last].name);
+        fail(error.code(), "{}; the last pass was {}", error.what(),
+             passes[first + progress.lastReached()].name);
     }
 }
 
@@ -261,6 +265,7 @@ void FrameGraph::execute() {
         s.beginSubmission(static_cast<uint32_t>(end - first));
         for (size_t i = first; i < end; ++i) {
             if (barriers[i].needed()) emitBarrier(s.commands, barriers[i]);
+            s.progress.passReached(s.commands);
             s.record(s.passes[i]);
             s.timestamps.passDone(s.commands);
         }

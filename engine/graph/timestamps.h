@@ -19,8 +19,6 @@ public:
 
     // After the submission: milliseconds of each pass, empty where there are no timestamps.
     std::vector<double> milliseconds() const;
-    // How many passes are done, even of a submission that never ended.
-    uint32_t passesDone() const;
 
 private:
     const Device& device_;

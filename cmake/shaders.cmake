@@ -9,6 +9,7 @@ function(irradia_kernels target dir)
   get_filename_component(group ${dir} NAME)
   set(out ${CMAKE_BINARY_DIR}/kernels/${group})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${dir}/*.comp)
+  file(GLOB beside CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${dir}/*.glsl ${CMAKE_SOURCE_DIR}/${dir}/*.h)
   set(declarations "#pragma once\n#include \"engine/gpu/kernel.h\"\nnamespace irradia::kernels {\n")
   set(definitions "#include \"kernels/${group}.h\"\n")
   set(table "namespace irradia::kernels {\n")
@@ -22,7 +23,7 @@ function(irradia_kernels target dir)
         COMMAND ${CMAKE_COMMAND} -E make_directory ${out}
         COMMAND ${GLSLANG_VALIDATOR} --quiet --target-env vulkan1.2 -DRECORDS_IN_${upper} -I${CMAKE_SOURCE_DIR}/shaders
                 --vn ${name}_${variant} -o ${spirv} ${source}
-        DEPENDS ${source} ${IRRADIA_SHADER_INCLUDES}
+        DEPENDS ${source} ${beside} ${IRRADIA_SHADER_INCLUDES}
         COMMENT "GLSL ${group}/${name} (${variant})" VERBATIM)
       list(APPEND outputs ${spirv})
       string(APPEND definitions "#include \"${spirv}\"\n")

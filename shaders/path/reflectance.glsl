@@ -8,11 +8,15 @@ vec3 loadReflectance(uint cosine, uint roughness) {
     return uintBitsToFloat(loadRecord(reflectanceTable, roughness * kTableCosines + cosine).xyz);
 }
 
-// (A, B, C) at cosine mu and perceptual roughness, bilinear in (sqrt(mu), roughness).
+// (A, B, C) at cosine mu and perceptual roughness, bilinear between the table's nodes.
 vec3 reflectanceAt(float mu, float roughness) {
     if (!kHasSpecular) return vec3(0.0);
-    float x = sqrt(clamp(mu, 0.0, 1.0)) * float(kTableCosines - 1u);
-    float y = clamp(roughness, 0.0, 1.0) * float(kTableRoughnesses - 1u);
+    mu = clamp(mu, 0.0, 1.0);
+    float a = kTableAlphaScale * max(roughness * roughness, kMinAlpha);
+    float column = (2.0 * sqrt(mu) + sqrt(mu * (1.0 + a) / (mu + a))) / 3.0;
+    float row = (sqrt(clamp(roughness, 0.0, 1.0)) - kTableFirstRoot) / (1.0 - kTableFirstRoot);
+    float x = column * float(kTableCosines - 1u);
+    float y = max(row, 0.0) * float(kTableRoughnesses - 1u);
     uint x0 = min(uint(x), kTableCosines - 2u);
     uint y0 = min(uint(y), kTableRoughnesses - 2u);
     float fx = x - float(x0);

@@ -45,12 +45,17 @@ SHARED_CONST uint kEmissiveTexture = 8u;
 SHARED_CONST uint kSpecularTexture = 16u;
 SHARED_CONST uint kSpecularColorTexture = 32u;
 
-// Reflectance table of the specular and diffuse lobes (engine/scene/reflectance_table): record (i, j) holds
-// A, B, C at cosine mu = (i / (kTableCosines - 1))^2 and roughness j / (kTableRoughnesses - 1), row j after row j - 1.
-SHARED_CONST uint kTableCosines = 48u;
-SHARED_CONST uint kTableRoughnesses = 32u;
-
 SHARED_CONST float kMinAlpha = 1e-3f; // GGX alpha = roughness^2 is at least this
+
+// Reflectance table of the specular and diffuse lobes (engine/scene/reflectance_table): A, B, C over a grid of
+//   column x = (2 sqrt(mu) + sqrt(mu (1 + 8 alpha) / (mu + 8 alpha))) / 3  of the cosine mu,
+//   row y = (sqrt(roughness) - r0) / (1 - r0),  r0 = kMinAlpha^(1/4)  of the perceptual roughness,
+// both from 0 to 1, row j after row j - 1. The second root keeps what depends on mu / alpha in a column: so bilinear
+// interpolation at mu >= 0.01 is within 1e-3 of the integrals, which bounds the energy the mend lets through.
+SHARED_CONST uint kTableCosines = 64u;
+SHARED_CONST uint kTableRoughnesses = 48u;
+SHARED_CONST float kTableAlphaScale = 8.0f;
+SHARED_CONST float kTableFirstRoot = 0.17782794f; // r0
 
 SHARED_END
 #endif

@@ -1,0 +1,46 @@
+// Push constants of the harness kernels, which run functions of the shaders over arrays.
+#ifndef IRRADIA_TESTS_HARNESS_H
+#define IRRADIA_TESTS_HARNESS_H
+#include "shared/types.h"
+SHARED_BEGIN
+
+struct BsdfHarnessParams {
+    uint count; // of invocations
+    uint caseIndex;
+    uint seed;
+    uint strata; // a case draws strata x strata samples
+};
+
+SHARED_CONST uint kWarpCosineHemisphere = 0u;
+SHARED_CONST uint kWarpTriangle = 1u;
+SHARED_CONST uint kWarpVisibleNormal = 2u;
+SHARED_CONST uint kWarpEquirect = 3u;
+
+struct WarpHarnessParams {
+    vec4 view; // xyz: view direction of kWarpVisibleNormal; w: its alpha
+    uint warp;
+    uint count;
+    uint seed;
+    uint pad;
+};
+
+// Key of value i: first + i * step, component by component.
+struct RngHarnessParams {
+    uvec4 first; // pixel, sample, block, seed
+    uvec4 step;
+    uint count;
+};
+
+// Follows the BounceParams that the functions of shaders/path expect.
+struct LightHarnessParams {
+    vec4 origin;  // xyz: the shaded point; w unused
+    vec4 normal;  // xyz: its normal; w: roughness of its BSDF
+    vec4 view;    // xyz: direction to the viewer; w: metallic
+    uint count;   // of invocations
+    uint samples; // of each
+    uint triangleCount;
+    uint pad;
+};
+
+SHARED_END
+#endif

@@ -170,6 +170,9 @@ uint32_t Device::nativeSubgroupSize() const {
 bool Device::canPinSubgroupSize() const {
     return state_->physical.subgroupSizeControl;
 }
+uint32_t Device::maxPinnedWorkgroup() const {
+    return state_->physical.maxSubgroups * subgroupSize();
+}
 bool Device::texelRecords() const {
     return state_->texelRecords;
 }

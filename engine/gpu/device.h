@@ -55,6 +55,7 @@ public:
     bool isCpu() const;
     uint32_t subgroupSize() const;       // the size kernels are pinned to
     bool canPinSubgroupSize() const;     // VK_EXT_subgroup_size_control (core in 1.3)
+    uint32_t maxPinnedWorkgroup() const; // invocations of a workgroup whose subgroups are pinned
     uint32_t nativeSubgroupSize() const; // of kernels that are not pinned
     bool texelRecords() const;           // which form of the kernels is used
     const OptionalFeatures& features() const;

@@ -1,6 +1,7 @@
 #include "engine/gpu/instance.h"
 #include "engine/error.h"
 #include "engine/gpu/device.h"
+#include "engine/gpu/shader_cache.h"
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -53,8 +54,9 @@ VkDebugUtilsMessengerCreateInfoEXT Instance::messengerInfo() {
     return info;
 }
 
-Instance::Instance(bool validation)
-    : debugUtils_(hasExtension(VK_EXT_DEBUG_UTILS_EXTENSION_NAME)) {
+Instance::Instance(bool validation) {
+    separateShaderCaches();
+    debugUtils_ = hasExtension(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
     if (validation && !hasLayer(kValidationLayer))
         fail(ExitCode::NoDevice,
              "validation was asked for, but the layer {} is not installed "

@@ -13,17 +13,20 @@ constexpr uint32_t kSubgroupSizeId = 1;
 constexpr uint32_t kCpuWorkgroup = 32;
 constexpr uint32_t kGpuWorkgroup = 128;
 
-uint32_t chooseWorkgroup(const Device& device, const std::string& name, uint32_t wanted, uint32_t subgroup) {
-    if (wanted == 0) {
+uint32_t chooseWorkgroup(const Device& device, const std::string& name, const KernelOptions& options) {
+    const bool pinned = options.pinSubgroup && device.canPinSubgroupSize();
+    const uint32_t subgroup = options.pinSubgroup ? device.subgroupSize() : device.nativeSubgroupSize();
+    if (options.workgroupSize == 0) {
         const uint32_t size = device.isCpu() ? kCpuWorkgroup : kGpuWorkgroup;
         return (size + subgroup - 1) / subgroup * subgroup;
     }
-    const uint32_t most =
-        std::min(device.limits().maxComputeWorkGroupInvocations, device.limits().maxComputeWorkGroupSize[0]);
-    if (wanted > most)
-        fail(ExitCode::Internal, "kernel {}: workgroups of {} are more than the device's {}", name, wanted,
-             most);
-    return wanted;
+    const VkPhysicalDeviceLimits& limits = device.limits();
+    const uint32_t most = std::min({limits.maxComputeWorkGroupInvocations, limits.maxComputeWorkGroupSize[0],
+                                    pinned ? device.maxPinnedWorkgroup() : UINT32_MAX});
+    if (options.workgroupSize > most)
+        fail(ExitCode::Internal, "kernel {}: workgroups of {} are more than the device's {}{}", name,
+             options.workgroupSize, most, pinned ? fmt::format(" with subgroups of {}", subgroup) : "");
+    return options.workgroupSize;
 }
 
 void checkCounts(const Device& device, const std::string& name, const std::vector<KernelBinding>& bindings) {
@@ -135,7 +138,7 @@ Kernel::Kernel(Device& device, const KernelSource& source, const KernelOptions& 
     const std::span<const uint32_t> spirv = device.texelRecords() ? source.texel : source.storage;
     Reflection reflection = reflect(name_, spirv);
     const uint32_t subgroup = options.pinSubgroup ? device.subgroupSize() : device.nativeSubgroupSize();
-    workgroupSize_ = chooseWorkgroup(device, name_, options.workgroupSize, subgroup);
+    workgroupSize_ = chooseWorkgroup(device, name_, options);
     pushBytes_ = reflection.pushBytes;
     checkCounts(device, name_, reflection.bindings);
     const Constants constants = specialise(name_, reflection, options.constants, workgroupSize_, subgroup);

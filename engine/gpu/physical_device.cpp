@@ -80,6 +80,7 @@ void readProperties(PhysicalDevice& device, bool sizeControl) {
     device.maxAllocation = allocation.maxMemoryAllocationSize;
     device.minSubgroupSize = control.minSubgroupSize;
     device.maxSubgroupSize = control.maxSubgroupSize;
+    device.maxSubgroups = control.maxComputeWorkgroupSubgroups;
     device.subgroupSizeControl = (control.requiredSubgroupSizeStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0;
     device.description.driver = fmt::format("{} {}", driver.driverName, driver.driverInfo);
     device.description.subgroupSize = subgroup.subgroupSize;
@@ -177,7 +178,9 @@ int rank(const PhysicalDevice& device) {
 
 std::vector<PhysicalDevice> physicalDevices(const Instance& instance) {
     uint32_t count = 0;
-    check(vkEnumeratePhysicalDevices(instance.handle(), &count, nullptr), "vkEnumeratePhysicalDevices");
+    const VkResult result = vkEnumeratePhysicalDevices(instance.handle(), &count, nullptr);
+    if (result == VK_ERROR_INITIALIZATION_FAILED) return {}; // no driver found a device
+    check(result, "vkEnumeratePhysicalDevices");
     std::vector<VkPhysicalDevice> handles(count);
     check(vkEnumeratePhysicalDevices(instance.handle(), &count, handles.data()),
           "vkEnumeratePhysicalDevices");

@@ -14,6 +14,7 @@ struct PhysicalDevice {
     bool subgroupSizeControl = false; // VK_EXT_subgroup_size_control, for compute, with whole subgroups
     uint32_t minSubgroupSize = 0;
     uint32_t maxSubgroupSize = 0;
+    uint32_t maxSubgroups = 0;    // of a workgroup of pinned subgroups
     bool memoryBudget = false;    // VK_EXT_memory_budget
     uint64_t maxAllocation = 0;   // bytes of one allocation
     std::string texelShortcoming; // why records cannot be read through texel views; empty if they can

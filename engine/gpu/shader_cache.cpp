@@ -1,0 +1,40 @@
+#include "engine/gpu/shader_cache.h"
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+namespace irradia {
+namespace {
+
+// Where Mesa keeps its cache; empty if it has no place.
+std::filesystem::path cacheFolder() {
+    if (const char* own = std::getenv("MESA_SHADER_CACHE_DIR")) return own;
+    if (const char* user = std::getenv("XDG_CACHE_HOME")) return user;
+    if (const char* home = std::getenv("HOME")) return std::filesystem::path(home) / ".cache";
+    return {};
+}
+
+void moveCache(const std::string& width) {
+    std::filesystem::path folder = cacheFolder();
+    std::error_code failed;
+    if (!folder.empty()) {
+        folder /= "irradia-lavapipe-" + width;
+        std::filesystem::create_directories(folder, failed);
+    }
+    if (folder.empty() || failed)
+        setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
+    else
+        setenv("MESA_SHADER_CACHE_DIR", folder.c_str(), 1);
+}
+
+} // namespace
+
+void separateShaderCaches() {
+    static const bool done = [] {
+        if (const char* width = std::getenv("LP_NATIVE_VECTOR_WIDTH")) moveCache(width);
+        return true;
+    }();
+    static_cast<void>(done);
+}
+
+} // namespace irradia

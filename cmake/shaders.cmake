@@ -1,15 +1,10 @@
 # irradia_kernels(TARGET DIR): every DIR/*.comp becomes SPIR-V embedded in a library, with records read through texel
 # views and through storage buffers. DIR/NAME.comp is declared in "kernels/<last folder of DIR>.h" as
 # irradia::kernels::NAME (a KernelSource).
-file(GLOB IRRADIA_SHADER_INCLUDES CONFIGURE_DEPENDS
-  ${CMAKE_SOURCE_DIR}/shaders/shared/*.h ${CMAKE_SOURCE_DIR}/shaders/lib/*.glsl ${CMAKE_SOURCE_DIR}/shaders/path/*.glsl
-  ${CMAKE_SOURCE_DIR}/shaders/nrc/*.glsl)
-
 function(irradia_kernels target dir)
   get_filename_component(group ${dir} NAME)
   set(out ${CMAKE_BINARY_DIR}/kernels/${group})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${dir}/*.comp)
-  file(GLOB beside CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${dir}/*.glsl ${CMAKE_SOURCE_DIR}/${dir}/*.h)
   set(declarations "#pragma once\n#include \"engine/gpu/kernel.h\"\nnamespace irradia::kernels {\n")
   set(definitions "#include \"kernels/${group}.h\"\n")
   set(table "namespace irradia::kernels {\n")
@@ -22,8 +17,8 @@ function(irradia_kernels target dir)
       add_custom_command(OUTPUT ${spirv}
         COMMAND ${CMAKE_COMMAND} -E make_directory ${out}
         COMMAND ${GLSLANG_VALIDATOR} --quiet --target-env vulkan1.2 -DRECORDS_IN_${upper} -I${CMAKE_SOURCE_DIR}/shaders
-                --vn ${name}_${variant} -o ${spirv} ${source}
-        DEPENDS ${source} ${beside} ${IRRADIA_SHADER_INCLUDES}
+                --depfile ${spirv}.d --vn ${name}_${variant} -o ${spirv} ${source}
+        DEPENDS ${source} DEPFILE ${spirv}.d # which names the files it includes
         COMMENT "GLSL ${group}/${name} (${variant})" VERBATIM)
       list(APPEND outputs ${spirv})
       string(APPEND definitions "#include \"${spirv}\"\n")

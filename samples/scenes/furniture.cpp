@@ -139,10 +139,10 @@ void addPlant(GlbWriter& glb, const glm::mat4& place, PlantMaterials m) {
 void addCurtain(GlbWriter& glb, const glm::mat4& place, float width, float top, int cloth) {
     const float bottom = 0.02f;
     const auto surface = [&](float u, float v) {
-        const float fold = std::sin(glm::two_pi<float>() * 7.0f * u + 0.6f * std::sin(3.0f * v));
-        return glm::vec3(width * (u - 0.5f), glm::mix(bottom, top, v), (0.05f - 0.02f * v) * fold);
+        const float fold = std::sin(glm::two_pi<float>() * 5.0f * u + 0.6f * std::sin(3.0f * v));
+        return glm::vec3(width * (u - 0.5f), glm::mix(bottom, top, v), (0.04f - 0.015f * v) * fold);
     };
-    glb.add("curtain", sheet(surface, 64, 12, 0.003f), cloth, place);
+    glb.add("curtain", sheet(surface, 80, 10, 0.003f), cloth, place);
 }
 
 void addFruitBowl(GlbWriter& glb, const glm::mat4& place, int bowl, std::span<const int> fruitMaterials) {

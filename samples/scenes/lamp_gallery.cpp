@@ -142,7 +142,7 @@ void writeLampGallery(const std::filesystem::path& folder) {
     addLamps(glb);
     addExhibits(glb);
     glb.addCamera("along", {-5.7f, 1.65f, 0.35f}, {0.0f, 1.25f, 0.0f}, 58.0f);
-    glb.addCamera("across", {-1.9f, 1.5f, 2.3f}, {1.0f, 1.2f, -1.2f}, 60.0f);
+    glb.addCamera("across", {-2.0f, 1.6f, 1.65f}, {1.0f, 1.2f, -1.2f}, 60.0f);
     glb.write(folder / "lamp-gallery.glb");
 }
 

@@ -269,11 +269,12 @@ Bvh buildBvh(const Scene& scene, const BvhOptions& options) {
         bvh = Encoder(scene, tree, planCollapse(tree, balanced)).encode();
         bvh.bounds = tree[0].bounds;
     };
-    BinaryTree tree = buildSahTree(scene, options.threads, options.splitReferences);
+    BinaryTree tree;
+    if (!options.median) tree = buildSahTree(scene, options.threads, options.splitReferences);
     if (!tree.empty()) build(tree, false);
     if (!tree.empty() && !fits(bvh) && options.splitReferences > 0.0f)
-        return buildBvh(scene, {options.threads, 0.0f});
-    if (tree.empty() || bvh.stackNeed > gpu::kTraversalStack) build(tree = buildMedianTree(scene), true);
+        return buildBvh(scene, {.threads = options.threads, .splitReferences = 0.0f});
+    if (tree.empty() || bvh.stackNeed >= gpu::kTraversalStack) build(buildMedianTree(scene), true);
     if (!fits(bvh))
         fail(ExitCode::BadData, "{}: the tree over {} triangles takes {} MiB, a device can bind 128 MiB",
              scene.name, scene.triangles.size(), bvh.records.size() * sizeof(glm::uvec4) >> 20);

@@ -11,22 +11,25 @@
 namespace irradia {
 
 // The same scene gives the same records, bit for bit, at any number of threads.
-//   - records[root] starts a node (of an empty scene: a triangle that no ray hits);
+//   - item `root` is a node (of an empty scene: a triangle that no ray hits);
 //   - every triangle is in one leaf or more (a long one may be split among boxes);
 //   - a decoded child box holds the part of the triangles below it that lies in its ancestors' boxes;
-//   - a traversal that pushes all hit children but the nearest never holds more than stackNeed entries,
-//     and stackNeed <= gpu::kTraversalStack.
+//   - a traversal never holds more than stackNeed groups, and stackNeed < gpu::kTraversalStack (entry 0 is
+//   the
+//     stack's bottom).
 struct Bvh {
     std::vector<glm::uvec4> records;
-    uint32_t root = 0;       // record index
+    uint32_t root = 0;       // item
     uint32_t nodes = 0;      // inner nodes
     uint32_t references = 0; // triangle items; at least the number of triangles
     uint32_t maxDepth = 0;   // levels of nodes
-    uint32_t stackNeed = 0;  // entries
+    uint32_t stackNeed = 0;  // groups
     Bounds bounds;           // of all triangles
 };
 
 struct BvhOptions {
+    bool median =
+        false; // halve at the median: quick, poor to trace; what a tree too deep for the stack falls back to
     uint32_t threads = 0; // of the builder, 0 = all cores
     float splitReferences =
         0.5f; // spatial splits may add this share of references (Stich et al. 2009), 0 = none

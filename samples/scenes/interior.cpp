@@ -182,7 +182,7 @@ void writeInterior(const std::filesystem::path& folder) {
     addBackWall(glb, wood);
     addWindowSide(glb, steel);
     glb.addCamera("camera", {2.75f, 1.6f, 2.3f}, {-0.75f, 0.8f, -0.9f}, 52.0f);
-    glb.addCamera("sofa", {-1.1f, 1.05f, -1.2f}, {0.6f, 1.0f, 1.8f}, 60.0f);
+    glb.addCamera("dining corner", {-2.6f, 1.5f, 0.3f}, {1.4f, 0.8f, -0.8f}, 50.0f);
     glb.write(folder / "interior.glb");
 }
 

@@ -11,6 +11,8 @@ constexpr std::array<std::string_view, 5> kReadExtensions{
     "KHR_materials_emissive_strength", "KHR_materials_ior", "KHR_materials_specular",
     "KHR_materials_pbrSpecularGlossiness", "KHR_mesh_quantization"};
 
+constexpr size_t kMaxWarnings = 64; // a broken file may earn one for each of a million things
+
 struct IgnoredExtension {
     std::string_view name;
     std::string_view consequence;
@@ -86,8 +88,11 @@ void noteIgnoredFeatures(const tinygltf::Model& model, SceneNotes& notes) {
 }
 
 void warnOnce(SceneNotes& notes, const std::string& warning) {
-    if (std::find(notes.warnings.begin(), notes.warnings.end(), warning) == notes.warnings.end())
+    if (std::find(notes.warnings.begin(), notes.warnings.end(), warning) != notes.warnings.end()) return;
+    if (notes.warnings.size() < kMaxWarnings)
         notes.warnings.push_back(warning);
+    else if (notes.warnings.size() == kMaxWarnings)
+        notes.warnings.push_back("there are more warnings");
 }
 
 } // namespace irradia::gltf

@@ -15,7 +15,7 @@ void refuseUnknownExtensions(const SourceFile& source, const std::vector<std::st
 // One warning for each feature the file uses and the renderer leaves out.
 void noteIgnoredFeatures(const tinygltf::Model& model, SceneNotes& notes);
 
-// Adds a warning unless the same one is there.
+// Adds a warning unless the same one is there, or too many are.
 void warnOnce(SceneNotes& notes, const std::string& warning);
 
 } // namespace irradia::gltf

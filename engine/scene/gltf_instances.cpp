@@ -9,8 +9,6 @@ namespace {
 
 constexpr uint32_t kNone = ~0u;
 constexpr double kMinRelativeArea = 1e-12; // of a triangle, to its longest edge squared
-constexpr double kFloatMin = std::numeric_limits<float>::min();
-constexpr double kFloatMax = std::numeric_limits<float>::max();
 
 enum class Shape { Good, NonFinite, Degenerate };
 
@@ -19,16 +17,19 @@ struct Face {
     glm::vec3 normal; // unit if Good
 };
 
-// In double: the cross product of float edges is exact enough there to tell a sliver from nothing.
-Face measure(glm::dvec3 a, glm::dvec3 b, glm::dvec3 c) {
-    const glm::dvec3 e1 = b - a, e2 = c - a, e3 = c - b;
-    const glm::dvec3 cross = glm::cross(e1, e2);
-    const double area2 = glm::length(cross); // twice the area
+Face measure(glm::vec3 a, glm::vec3 b, glm::vec3 c) {
+    // Kernels normalise the cross product in float: what overflows or vanishes there is no triangle.
+    const glm::vec3 cross = glm::cross(b - a, c - a);
+    const float length2 = glm::dot(cross, cross);
+    if (!std::isfinite(length2)) return {Shape::NonFinite, {}};
+    if (length2 < std::numeric_limits<float>::min()) return {Shape::Degenerate, {}};
+    // In double the product of float edges is exact enough to tell a sliver from nothing.
+    const glm::dvec3 p(a), e1 = glm::dvec3(b) - p, e2 = glm::dvec3(c) - p, e3 = e2 - e1;
+    const glm::dvec3 exact = glm::cross(e1, e2);
+    const double area2 = glm::length(exact); // twice the area
     const double longest2 = std::max({glm::dot(e1, e1), glm::dot(e2, e2), glm::dot(e3, e3)});
-    // Kernels compute in float: what overflows or underflows there is no triangle either.
-    if (!std::isfinite(area2) || longest2 > kFloatMax) return {Shape::NonFinite, {}};
-    if (0.5 * area2 <= kMinRelativeArea * longest2 || area2 < kFloatMin) return {Shape::Degenerate, {}};
-    return {Shape::Good, cross / area2};
+    if (0.5 * area2 <= kMinRelativeArea * longest2) return {Shape::Degenerate, {}};
+    return {Shape::Good, exact / area2};
 }
 
 glm::vec3 unitOrZero(glm::dvec3 v) {

@@ -112,8 +112,8 @@ private:
     float number(const std::string& key, double value, double low, double high) {
         const double clamped = std::isnan(value) ? low : std::clamp(value, low, high);
         if (clamped != value)
-            notes_.warnings.push_back(
-                fmt::format("{}: {} {} is outside {} to {} and was clamped", owner_, key, value, low, high));
+            warnOnce(notes_, fmt::format("{}: {} {} is outside {} to {} and was clamped", owner_, key, value,
+                                         low, high));
         return static_cast<float>(clamped);
     }
 

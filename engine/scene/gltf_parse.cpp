@@ -91,7 +91,7 @@ tinygltf::Model parseModel(const SourceFile& source, SceneNotes& notes) {
     if (access.error) std::rethrow_exception(access.error);
     if (!parsed) source.refuse("{}", firstLine(errors));
     refuseOmissions(source, errors);
-    if (!warnings.empty()) notes.warnings.push_back(firstLine(warnings));
+    if (!warnings.empty()) warnOnce(notes, firstLine(warnings));
     if (model.asset.version.substr(0, 2) != "2.")
         source.refuse("UNKNOWN_ASSET_MAJOR_VERSION: glTF {}, only 2 can be read", model.asset.version);
     return model;

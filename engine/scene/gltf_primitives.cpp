@@ -19,11 +19,6 @@ View attribute(const tinygltf::Model& model, const tinygltf::Primitive& primitiv
     return found == primitive.attributes.end() ? std::nullopt : View(std::in_place, model, found->second);
 }
 
-uint64_t vertexCount(const tinygltf::Model& model, const tinygltf::Primitive& primitive) {
-    const auto position = primitive.attributes.find("POSITION");
-    return position == primitive.attributes.end() ? 0 : model.accessors[position->second].count;
-}
-
 uint64_t cornerCount(const tinygltf::Model& model, const tinygltf::Primitive& primitive) {
     if (!primitive.attributes.contains("POSITION")) return 0;
     return primitive.indices >= 0 ? model.accessors[primitive.indices].count : vertexCount(model, primitive);
@@ -73,32 +68,37 @@ public:
     PrimitiveMesh read() {
         const bool generates = mapped_ && !tangents_;
         slots_.assign(positions_->count() * 2, kNone);
-        for (const glm::u64vec3& source : sourceTriangles()) {
+        for (const glm::uvec3& source : sourceTriangles()) {
             const bool mirrored = generates && isMirrored(source);
             mesh_.triangles.push_back(
                 {corner(source.x, mirrored), corner(source.y, mirrored), corner(source.z, mirrored)});
         }
         if (generates) generateTangents(mesh_, uvSet_);
+        if (badUv_)
+            warnOnce(notes_, fmt::format("{}: ACCESSOR_INVALID_FLOAT: texture coordinates that are not "
+                                         "finite or beyond {} are taken as 0",
+                                         owner_, kMaxUv));
         return std::move(mesh_);
     }
 
 private:
-    std::vector<glm::u64vec3> sourceTriangles() const {
+    std::vector<glm::uvec3> sourceTriangles() const {
         const uint64_t count = triangleCount(model_, primitive_);
         if (primitive_.mode == TINYGLTF_MODE_TRIANGLES && cornerCount(model_, primitive_) % 3 != 0)
             warnOnce(notes_, owner_ + ": the last indices make no whole triangle and are left out");
         View indices;
         if (primitive_.indices >= 0) indices.emplace(model_, primitive_.indices);
-        std::vector<glm::u64vec3> triangles(count);
+        std::vector<glm::uvec3> triangles(count);
         for (uint64_t t = 0; t < count; ++t) {
-            triangles[t] = cornersOf(primitive_.mode, t);
-            if (indices)
-                for (int c = 0; c < 3; ++c) triangles[t][c] = checkedIndex(*indices, triangles[t][c]);
+            const glm::u64vec3 corners = cornersOf(primitive_.mode, t);
+            for (int c = 0; c < 3; ++c)
+                triangles[t][c] =
+                    indices ? checkedIndex(*indices, corners[c]) : static_cast<uint32_t>(corners[c]);
         }
         return triangles;
     }
 
-    uint64_t checkedIndex(const AccessorView& indices, uint64_t i) const {
+    uint32_t checkedIndex(const AccessorView& indices, uint64_t i) const {
         const uint32_t index = indices.index(i);
         if (index >= positions_->count())
             source_.refuse("{}: ACCESSOR_INDEX_OOB: accessor {} element {} is {}, there are {} vertices",
@@ -106,15 +106,16 @@ private:
         return index;
     }
 
-    // The vertex for a corner. Sides of a mirrored texture meet in two vertices: their tangents differ.
-    uint32_t corner(uint64_t source, bool mirrored) {
+    // The vertex for a corner. Sides of a mirrored texture meet in two vertices: their tangents differ. A
+    // vertex that takes the flat normal is nobody else's.
+    uint32_t corner(uint32_t source, bool mirrored) {
+        uint32_t& slot = slots_[2 * uint64_t{source} + (mirrored ? 1 : 0)];
+        if (slot != kNone) return slot;
         const Vertex vertex = readVertex(source);
-        const bool flat = vertex.normal == glm::vec3(0.0f);
-        uint32_t& slot = slots_[2 * source + (mirrored ? 1 : 0)];
-        if (!flat && slot != kNone) return slot;
-        slot = static_cast<uint32_t>(mesh_.vertices.size());
+        const auto index = static_cast<uint32_t>(mesh_.vertices.size());
         mesh_.vertices.push_back(vertex);
-        return slot;
+        if (vertex.normal != glm::vec3(0.0f)) slot = index;
+        return index;
     }
 
     Vertex readVertex(uint64_t i) {
@@ -137,13 +138,11 @@ private:
     glm::vec2 readUv(int set, uint64_t i) {
         const glm::vec2 uv = uv_[set]->element(i);
         if (std::abs(uv.x) <= kMaxUv && std::abs(uv.y) <= kMaxUv) return uv;
-        warnOnce(notes_,
-                 fmt::format("{}: ACCESSOR_INVALID_FLOAT: TEXCOORD_{} is not finite or beyond {}, taken as 0",
-                             owner_, set, kMaxUv));
+        badUv_ = true;
         return glm::vec2(0.0f);
     }
 
-    bool isMirrored(const glm::u64vec3& t) {
+    bool isMirrored(const glm::uvec3& t) {
         if (!uv_[uvSet_]) return false;
         return uvArea(readUv(uvSet_, t.x), readUv(uvSet_, t.y), readUv(uvSet_, t.z)) > 0;
     }
@@ -167,11 +166,17 @@ private:
     View uv_[2];
     bool mapped_ = false; // has a normal map
     int uvSet_ = 0;       // the normal map's
-    std::vector<uint32_t> slots_;
+    bool badUv_ = false;
+    std::vector<uint32_t> slots_; // the vertex by 2 * the file's + mirrored
     PrimitiveMesh mesh_;
 };
 
 } // namespace
+
+uint64_t vertexCount(const tinygltf::Model& model, const tinygltf::Primitive& primitive) {
+    const auto position = primitive.attributes.find("POSITION");
+    return position == primitive.attributes.end() ? 0 : model.accessors[position->second].count;
+}
 
 uint64_t triangleCount(const tinygltf::Model& model, const tinygltf::Primitive& primitive) {
     const uint64_t corners = cornerCount(model, primitive);
@@ -197,7 +202,7 @@ std::vector<PrimitiveMesh> readMesh(const SourceFile& source, const tinygltf::Mo
             warnOnce(scene.notes, owner + " is left out: it has no positions");
         else if (primitive.mode < TINYGLTF_MODE_TRIANGLES)
             warnOnce(scene.notes, "points and lines are left out");
-        else
+        else if (triangleCount(model, primitive) > 0)
             primitives.push_back(PrimitiveReader(source, model, primitive, owner, scene).read());
     }
     return primitives;

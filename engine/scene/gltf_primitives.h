@@ -16,6 +16,9 @@ struct PrimitiveMesh {
     uint32_t material = 0;
 };
 
+// Vertices a primitive names, used or not.
+uint64_t vertexCount(const tinygltf::Model& model, const tinygltf::Primitive& primitive);
+
 // Triangles a primitive will have: 0 for points and lines.
 uint64_t triangleCount(const tinygltf::Model& model, const tinygltf::Primitive& primitive);
 

@@ -12,9 +12,10 @@
 namespace irradia {
 namespace {
 
-// 64 million triangles are 10 GiB with their acceleration structure; a small file can ask for more by
-// instancing.
-constexpr uint64_t kMaxTriangles = 1ull << 26;
+// What a scene may hold. A small file can ask for far more: by instancing, or by accessors without data.
+constexpr uint64_t kMaxTriangles = 1ull << 25;
+constexpr uint64_t kMaxVertices = 1ull
+                                  << 28; // named by primitives, before those no triangle uses are left out
 
 // FNV-1a, 64 bits (Fowler, Noll and Vo).
 uint64_t hashBytes(const std::vector<uint8_t>& bytes) {
@@ -23,19 +24,26 @@ uint64_t hashBytes(const std::vector<uint8_t>& bytes) {
     return hash;
 }
 
-// Counts before anything is built: a hostile file may multiply meshes by nodes.
+// Counts before anything is built.
 void refuseTooMany(const gltf::SourceFile& source, const tinygltf::Model& model,
                    const std::vector<gltf::Placement>& nodes) {
-    uint64_t triangles = 0;
+    std::vector<uint64_t> meshTriangles;
+    uint64_t vertices = 0, triangles = 0;
+    for (const tinygltf::Mesh& mesh : model.meshes) {
+        uint64_t& count = meshTriangles.emplace_back(0);
+        for (const tinygltf::Primitive& primitive : mesh.primitives) {
+            count += gltf::triangleCount(model, primitive);
+            vertices += gltf::vertexCount(model, primitive);
+        }
+    }
+    if (vertices > kMaxVertices)
+        source.refuse("the meshes have more than the {} vertices allowed", kMaxVertices);
     for (const gltf::Placement& placement : nodes) {
-        const int mesh = model.nodes[placement.node].mesh;
-        if (mesh < 0) continue;
-        for (const tinygltf::Primitive& primitive : model.meshes[mesh].primitives)
-            triangles += gltf::triangleCount(model, primitive);
+        const tinygltf::Node& node = model.nodes[placement.node];
+        if (node.mesh >= 0) triangles += meshTriangles[node.mesh];
         if (triangles > kMaxTriangles)
             source.refuse("{}: with it the scene has more than the {} triangles allowed",
-                          gltf::label("node", placement.node, model.nodes[placement.node].name),
-                          kMaxTriangles);
+                          gltf::label("node", placement.node, node.name), kMaxTriangles);
     }
 }
 

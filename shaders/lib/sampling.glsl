@@ -27,11 +27,12 @@ vec3 sampleVisibleNormal(vec3 v, float alpha, vec2 u) {
     return normalize(vec3(h.xy * alpha, max(h.z, 1e-7)));
 }
 
-// Power heuristic, exponent 2 (Veach and Guibas 1995), of a sample drawn with density p against density q.
+// Power heuristic, exponent 2 (Veach and Guibas 1995), of a sample drawn with density p against density q. Written in
+// the ratio of both, whose square neither overflows nor vanishes: the weights of two techniques sum to 1 at any scale.
 float powerHeuristic(float p, float q) {
-    float p2 = p * p;
-    float q2 = q * q;
-    return p2 > 1e30 ? 1.0 : p2 / max(p2 + q2, 1e-37);
+    float ratio = min(p, q) / max(max(p, q), 1e-37);
+    float squared = ratio * ratio;
+    return (p >= q ? 1.0 : squared) / (1.0 + squared);
 }
 
 // The direction of equirectangular (u, v), and back: u = atan2(z, x) / 2 pi + 1/2, v = acos(y) / pi.
@@ -45,7 +46,8 @@ vec3 directionOfEquirect(vec2 uv) {
 vec2 equirectOfDirection(vec3 d) {
     // atan(0, 0) is not defined: the poles take u = 1/2.
     float phi = abs(d.x) + abs(d.z) > 0.0 ? atan(d.z, d.x) : 0.0;
-    return vec2(phi * (0.5 * kInvPi) + 0.5, acos(clamp(d.y, -1.0, 1.0)) * kInvPi);
+    // Not acos: that is good to 1e-5 on some devices, and to sqrt(ulp) at the poles on all.
+    return vec2(phi * (0.5 * kInvPi) + 0.5, atan(length(d.xz), d.y) * kInvPi);
 }
 
 #endif

@@ -116,6 +116,15 @@ TEST_CASE("Integers that tinygltf would cut, drop or take for absent") {
                  "/meshes/0/primitives/0/attributes/POSITION");
 }
 
+TEST_CASE("Names from a file reach the terminal without its control characters") {
+    checkSpoiled(
+        [](Json& json) {
+            json["nodes"][0]["name"] = "a\n\x1b[2J";
+            json["nodes"][0]["children"] = {0};
+        },
+        "node 0 'a??[2J': NODE_LOOP");
+}
+
 TEST_CASE("Ranges of buffers, views and accessors") {
     checkSpoiled([](Json& json) { json["buffers"] = {{{"byteLength", 1000000000000}}}; }, "byteLength");
     checkSpoiled([](Json& json) { json["buffers"] = {{{"byteLength", 0}}}; }, "");

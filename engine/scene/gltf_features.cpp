@@ -87,7 +87,8 @@ void noteIgnoredFeatures(const tinygltf::Model& model, SceneNotes& notes) {
     if (!model.animations.empty()) warnOnce(notes, "animations are not supported yet: the scene is at rest");
 }
 
-void warnOnce(SceneNotes& notes, const std::string& warning) {
+void warnOnce(SceneNotes& notes, const std::string& text) {
+    const std::string warning = printable(text);
     if (std::find(notes.warnings.begin(), notes.warnings.end(), warning) != notes.warnings.end()) return;
     if (notes.warnings.size() < kMaxWarnings)
         notes.warnings.push_back(warning);

@@ -22,13 +22,15 @@ bool isInside(const std::filesystem::path& folder, const std::filesystem::path& 
     return end == folder.end() && rest != file.end();
 }
 
-// The start of a URI for an error: data URIs are long.
-std::string shortened(const std::string& uri) {
-    constexpr size_t kShown = 80;
-    return uri.size() <= kShown ? uri : uri.substr(0, kShown) + "...";
-}
-
 } // namespace
+
+std::string printable(std::string text) {
+    constexpr size_t kShown = 300;
+    if (text.size() > kShown) text = text.substr(0, kShown) + "...";
+    for (char& c : text)
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+    return text;
+}
 
 SourceFile openSource(const std::filesystem::path& file) {
     return {file, readCapped(file)};
@@ -54,13 +56,13 @@ std::filesystem::path resolveUri(const SourceFile& source, const std::string& de
     const bool climbs = std::find(relative.begin(), relative.end(), "..") != relative.end();
     if (decodedUri.empty() || relative.is_absolute() || climbs || decodedUri.find(':') != std::string::npos ||
         decodedUri.find('\0') != std::string::npos)
-        source.refuse("uri '{}' is not a plain path inside the scene's folder", shortened(decodedUri));
+        source.refuse("uri '{}' is not a plain path inside the scene's folder", decodedUri);
 
     std::error_code error;
     const auto folder = std::filesystem::weakly_canonical(source.path, error).parent_path();
     const auto file = std::filesystem::weakly_canonical(folder / relative, error);
     if (error || !isInside(folder, file))
-        source.refuse("uri '{}' leads outside the scene's folder", shortened(decodedUri));
+        source.refuse("uri '{}' leads outside the scene's folder", decodedUri);
     return file;
 }
 

@@ -14,6 +14,9 @@ namespace irradia::gltf {
 // Above this a file, a buffer and an offset would leave the 31 bits tinygltf counts in.
 constexpr uint64_t kMaxFileBytes = (uint64_t{1} << 31) - 1;
 
+// Text from a file as a terminal may show it: no control characters, no more than fits a few lines.
+std::string printable(std::string text);
+
 struct SourceFile {
     std::filesystem::path path;
     std::vector<uint8_t> bytes;
@@ -21,7 +24,8 @@ struct SourceFile {
     // Throws BadData with a sentence that begins with the file's path.
     template <typename... Args>
     [[noreturn]] void refuse(fmt::format_string<Args...> sentence, Args&&... args) const {
-        fail(ExitCode::BadData, "{}: {}", path.string(), fmt::format(sentence, std::forward<Args>(args)...));
+        fail(ExitCode::BadData, "{}: {}", path.string(),
+             printable(fmt::format(sentence, std::forward<Args>(args)...)));
     }
 };
 

@@ -89,7 +89,13 @@ public:
     }
 
     bool parse_error(size_t position, const std::string&, const nlohmann::json::exception& error) override {
-        source_.refuse("INVALID_JSON at byte {}: {}", position, error.what());
+        // "[json.exception...] parse error at line 1, column 3: what was met; last read: 'maybe no text at
+        // all'"
+        const std::string text = error.what();
+        const size_t begin = text.find("] ");
+        source_.refuse(
+            "INVALID_JSON at byte {}: {}", position,
+            text.substr(begin == std::string::npos ? 0 : begin + 2, text.find("; last read") - begin - 2));
     }
 
 private:
@@ -152,7 +158,7 @@ private:
         for (const Level& level : path_)
             text +=
                 level.isArray ? fmt::format("/{}", level.index == 0 ? 0 : level.index - 1) : "/" + level.key;
-        return text.size() <= 200 ? text : text.substr(0, 200) + "...";
+        return text.size() <= 120 ? text : text.substr(0, 120) + "...";
     }
 
     const SourceFile& source_;

@@ -1,35 +1,11 @@
 #include "engine/gpu/device.h"
 #include "engine/error.h"
-#include "engine/gpu/memory_budget.h"
-#include "engine/gpu/physical_device.h"
-#include <algorithm>
+#include "engine/gpu/device_state.h"
 #include <bit>
-#include <cstdio>
 #include <cstdlib>
-#include <numeric>
-#include <span>
 #include <string_view>
 
 namespace irradia {
-
-struct Device::State {
-    explicit State(bool validation)
-        : instance(validation) {}
-    ~State();
-
-    Instance instance;
-    PhysicalDevice physical;
-    uint32_t subgroupSize = 0;
-    bool texelRecords = false;
-    VkDevice device = VK_NULL_HANDLE;
-    VkQueue queue = VK_NULL_HANDLE;
-    VkFence fence = VK_NULL_HANDLE;
-    bool abandoned = false;
-    VkPhysicalDeviceMemoryProperties memory{};
-    uint64_t memoryBudget = 0;
-    uint64_t memoryUsed = 0;
-    PFN_vkSetDebugUtilsObjectNameEXT setName = nullptr;
-};
 
 Device::State::~State() {
     if (fence != VK_NULL_HANDLE) vkDestroyFence(device, fence, nullptr);
@@ -37,8 +13,6 @@ Device::State::~State() {
 }
 
 namespace {
-
-constexpr double kMiB = 1024.0 * 1024.0;
 
 bool wantsValidation(const DeviceOptions& options) {
     const char* variable = std::getenv("IRRADIA_VALIDATION");
@@ -113,24 +87,6 @@ VkDevice createDevice(const PhysicalDevice& physical) {
     return device;
 }
 
-// The memory type, among those the buffer allows, that has all of `required` and most of `wanted`, and the
-// fewest other properties; UINT32_MAX if none.
-uint32_t findMemoryType(const VkPhysicalDeviceMemoryProperties& memory, uint32_t allowed,
-                        VkMemoryPropertyFlags required, VkMemoryPropertyFlags wanted) {
-    uint32_t best = UINT32_MAX;
-    int bestScore = 0;
-    for (uint32_t i = 0; i < memory.memoryTypeCount; ++i) {
-        const VkMemoryPropertyFlags flags = memory.memoryTypes[i].propertyFlags;
-        if (!(allowed & (1u << i)) || (flags & required) != required) continue;
-        const int score = 100 + 16 * std::popcount(flags & wanted) - std::popcount(flags & ~wanted);
-        if (score > bestScore) {
-            best = i;
-            bestScore = score;
-        }
-    }
-    return best;
-}
-
 } // namespace
 
 Device::Device(const DeviceOptions& options)
@@ -182,12 +138,6 @@ const OptionalFeatures& Device::features() const {
 const VkPhysicalDeviceLimits& Device::limits() const {
     return state_->physical.properties.limits;
 }
-uint64_t Device::memoryUsed() const {
-    return state_->memoryUsed;
-}
-uint64_t Device::memoryBudget() const {
-    return state_->memoryBudget;
-}
 uint64_t Device::validationMessages() const {
     return state_->instance.messages();
 }
@@ -211,64 +161,6 @@ uint32_t Device::queueFamily() const {
 }
 float Device::timestampPeriodNs() const {
     return state_->physical.timestampBits > 0 ? limits().timestampPeriod : 0.0f;
-}
-
-void Device::plan(const std::vector<PlannedBuffer>& buffers) const {
-    std::vector<PlannedBuffer> sorted = buffers;
-    std::sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.bytes > b.bytes; });
-    const uint64_t sum = std::accumulate(buffers.begin(), buffers.end(), uint64_t{0},
-                                         [](uint64_t total, const auto& b) { return total + b.bytes; });
-    std::string largest;
-    for (const PlannedBuffer& buffer : std::span(sorted).first(std::min<size_t>(sorted.size(), 3)))
-        largest += fmt::format("{}{} {:.1f}", largest.empty() ? "" : ", ", buffer.name,
-                               static_cast<double>(buffer.bytes) / kMiB);
-    const double used = static_cast<double>(memoryUsed()) / kMiB;
-    const double budget = static_cast<double>(memoryBudget()) / kMiB;
-    fmt::print(stderr, "memory: {:.1f} MiB planned ({}), {:.1f} used, budget {:.0f}\n",
-               static_cast<double>(sum) / kMiB, largest, used, budget);
-    if (sum > memoryBudget() - std::min(memoryUsed(), memoryBudget()))
-        fail(
-            ExitCode::OutOfMemory,
-            "{}: {:.1f} MiB are planned and {:.1f} MiB used, more than the budget of {:.1f} MiB; largest: {}",
-            description().name, static_cast<double>(sum) / kMiB, used, budget, largest);
-}
-
-VkDeviceMemory Device::allocate(VkBuffer buffer, bool hostVisible, const std::string& name,
-                                uint64_t& allocated) {
-    VkMemoryRequirements needs{};
-    vkGetBufferMemoryRequirements(handle(), buffer, &needs);
-    const double size = static_cast<double>(needs.size) / kMiB;
-    if (needs.size > memoryBudget() - std::min(memoryUsed(), memoryBudget()))
-        fail(ExitCode::OutOfMemory,
-             "buffer {}: {:.1f} MiB do not fit the budget of {:.1f} MiB, of which {:.1f} are used", name,
-             size, static_cast<double>(memoryBudget()) / kMiB, static_cast<double>(memoryUsed()) / kMiB);
-    if (needs.size > state_->physical.maxAllocation)
-        fail(ExitCode::OutOfMemory,
-             "buffer {}: {:.1f} MiB are more than the device allocates at once ({:.1f} MiB)", name, size,
-             static_cast<double>(state_->physical.maxAllocation) / kMiB);
-
-    constexpr VkMemoryPropertyFlags kMapped =
-        VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
-    const VkMemoryPropertyFlags required = hostVisible ? kMapped : 0;
-    const VkMemoryPropertyFlags wanted = hostVisible
-                                             ? VK_MEMORY_PROPERTY_HOST_CACHED_BIT | kMapped
-                                             : VkMemoryPropertyFlags{VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT};
-    VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
-    info.allocationSize = needs.size;
-    info.memoryTypeIndex = findMemoryType(state_->memory, needs.memoryTypeBits, required, wanted);
-    if (info.memoryTypeIndex == UINT32_MAX)
-        fail(ExitCode::Internal, "buffer {}: no memory type fits it", name);
-    VkDeviceMemory memory = VK_NULL_HANDLE;
-    check(vkAllocateMemory(handle(), &info, nullptr, &memory),
-          fmt::format("buffer {}: {:.1f} MiB", name, size));
-    allocated = needs.size;
-    state_->memoryUsed += needs.size;
-    return memory;
-}
-
-void Device::release(VkDeviceMemory memory, uint64_t allocated) {
-    vkFreeMemory(handle(), memory, nullptr);
-    state_->memoryUsed -= allocated;
 }
 
 void Device::submitAndWait(VkCommandBuffer commands, const std::string& what, double timeoutSeconds) const {

@@ -27,6 +27,7 @@ struct PassRecord {
     std::optional<BufferRange> target;   // Fill, Copy
     uint32_t value = 0;                  // Fill
     bool cutBefore = false;
+    uint32_t run = 0; // passes of the same name before it in this execution
 };
 
 // Throws Error(Internal) naming pass and binding where the bindings or push constants are not the kernel's.

@@ -1,0 +1,46 @@
+// What a FrameGraph holds: the passes declared so far and what submits them.
+#pragma once
+
+#include "engine/graph/descriptor_sets.h"
+#include "engine/graph/pass_record.h"
+#include "engine/graph/progress.h"
+#include "engine/graph/timestamps.h"
+#include <map>
+
+namespace irradia {
+
+struct FrameGraph::State {
+    State(Device& d, Profiler* p)
+        : device(d)
+        , profiler(p)
+        , sets(d)
+        , timestamps(d)
+        , progress(d) {}
+    ~State();
+
+    PassRecord& add(const std::string& name);
+    void end(size_t index); // the pass is complete: checks it
+    std::vector<ScheduledPass> accesses() const;
+    void numberRuns();
+    std::vector<size_t> slices() const;
+    void record(const PassRecord& pass);
+    void beginSubmission(uint32_t passCount);
+    void submit(size_t first, size_t end);
+    void keepTimes(size_t first);
+
+    Device& device;
+    Profiler* profiler;
+    double timeoutSeconds = 60;
+    std::vector<PassRecord> passes;
+    bool cutNext = false;
+    DescriptorSets sets;
+    Timestamps timestamps;
+    Progress progress;
+    VkCommandPool pool = VK_NULL_HANDLE;
+    VkCommandBuffer commands = VK_NULL_HANDLE;
+    PFN_vkCmdBeginDebugUtilsLabelEXT beginLabel = nullptr;
+    PFN_vkCmdEndDebugUtilsLabelEXT endLabel = nullptr;
+    std::map<std::string, std::vector<double>, std::less<>> lastTimes; // ms of each run of a pass name
+};
+
+} // namespace irradia

@@ -1,0 +1,41 @@
+#include "tests/support/light_harness.h"
+
+namespace irradia::test {
+
+namespace {
+
+std::vector<Specialisation> fitted(const SceneNeeds& needs, std::vector<Specialisation> faults) {
+    faults.push_back({gpu::kConstantEnvironment, needs.environment});
+    faults.push_back({gpu::kConstantEmitters, needs.emitters});
+    faults.push_back({gpu::kConstantTextures, needs.textures});
+    return faults;
+}
+
+struct Push {
+    gpu::BounceParams params;
+    gpu::LightHarnessParams harness;
+};
+
+} // namespace
+
+LightHarness::LightHarness(const Scene& scene, const KernelSource& source, std::vector<Specialisation> faults)
+    : scene_(uploadScene(validatedDevice(), packScene(scene), Bvh{}, sceneBounds(scene)))
+    , kernel_(source, fitted(scene_.needs, std::move(faults))) {}
+
+std::vector<glm::uvec4> LightHarness::run(const gpu::LightHarnessParams& harness, uint32_t seed,
+                                          size_t records, const std::vector<BufferRange>& more) {
+    Push push{};
+    push.params.seed = seed;
+    push.params.lightCount = scene_.lightCount;
+    push.params.environmentWidth = scene_.environmentWidth;
+    push.params.environmentHeight = scene_.environmentHeight;
+    push.params.environmentProbability = scene_.environmentProbability;
+    push.harness = harness;
+    std::vector<BufferRange> inputs{scene_.geometry,    scene_.attributes,      scene_.materials,
+                                    scene_.textures,    scene_.texels,          scene_.lights,
+                                    scene_.environment, scene_.environmentAlias};
+    inputs.insert(inputs.end(), more.begin(), more.end());
+    return kernel_.run(inputs, push, harness.count, records);
+}
+
+} // namespace irradia::test

@@ -175,12 +175,13 @@ private:
     void writeTriangle(uint32_t primitive, uint32_t flags) {
         const glm::uvec3 v = scene_.triangles[primitive].vertex;
         const glm::vec3 p0 = scene_.vertices[v.x].position;
-        const glm::uvec3 p = bitsOf(p0);
-        const glm::uvec3 e1 = bitsOf(scene_.vertices[v.y].position - p0);
-        const glm::uvec3 e2 = bitsOf(scene_.vertices[v.z].position - p0);
-        bvh_.records.emplace_back(p, primitive | flags);
-        bvh_.records.emplace_back(e1, e2.x);
-        bvh_.records.emplace_back(e2.y, e2.z, 0u, 0u);
+        const glm::vec3 e1 = scene_.vertices[v.y].position - p0;
+        const glm::vec3 e2 = scene_.vertices[v.z].position - p0;
+        const float margin = 8 * 0x1p-24f * std::max(glm::length(e1), glm::length(e2));
+        bvh_.records.emplace_back(bitsOf(p0), primitive | flags);
+        bvh_.records.emplace_back(bitsOf(e1), std::bit_cast<uint32_t>(e2.x));
+        bvh_.records.emplace_back(std::bit_cast<uint32_t>(e2.y), std::bit_cast<uint32_t>(e2.z),
+                                  std::bit_cast<uint32_t>(margin), 0u);
         ++bvh_.references;
     }
 

@@ -51,8 +51,9 @@ Traversal beginTraversal(uint root, vec3 origin, vec3 direction, float tMax) {
 bool visitTriangle(inout Traversal ray, bool isTriangle, uvec4 a, uvec4 b, uvec4 c) {
     vec3 e1 = uintBitsToFloat(isTriangle ? b.xyz : uvec3(0u));
     vec3 e2 = uintBitsToFloat(isTriangle ? uvec3(b.w, c.xy) : uvec3(0u));
+    float margin = uintBitsToFloat(isTriangle ? c.z : 0u);
     float t, u, v;
-    bool hit = intersectTriangle(ray.origin, ray.direction, ray.tMax, uintBitsToFloat(a.xyz), e1, e2, t, u, v);
+    bool hit = intersectTriangle(ray.origin, ray.direction, ray.tMax, uintBitsToFloat(a.xyz), e1, e2, margin, t, u, v);
     ray.tMax = hit ? t : ray.tMax;
     ray.u = hit ? u : ray.u;
     ray.v = hit ? v : ray.v;

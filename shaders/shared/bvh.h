@@ -11,7 +11,7 @@
 // Triangle:
 //   0: p0 xyz, primitive | kTriangleItem | kMoreTriangles if its leaf goes on with the next item
 //   1: e1 xyz, e2 x
-//   2: e2 yz, 0, 0
+//   2: e2 yz, margin (8 * 2^-24 times the longer edge), 0
 //
 // A group, what a traversal keeps on its stack: the first item of a block << kGroupBits and, nearest first, the
 // offsets of the children still to be visited, kOffsetBits each; kNoChild where there are no more.

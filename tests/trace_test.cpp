@@ -11,7 +11,6 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <limits>
-#include <memory>
 
 using namespace irradia;
 using namespace irradia::test;
@@ -22,14 +21,15 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr uint32_t kUntouched = 0xabcdabcdu;
 
+// Never destroyed: the validation layer's own statics are gone before ours.
 Device& deviceWith(RecordAccess records) {
-    static std::unique_ptr<Device> devices[2];
-    std::unique_ptr<Device>& device = devices[records == RecordAccess::Texel ? 0 : 1];
+    static Device* devices[2] = {};
+    Device*& device = devices[records == RecordAccess::Texel ? 0 : 1];
     if (!device) {
         DeviceOptions options;
         options.validation = true;
         options.records = records;
-        device = std::make_unique<Device>(options);
+        device = new Device(options);
     }
     return *device;
 }

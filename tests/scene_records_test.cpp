@@ -1,0 +1,274 @@
+// A scene packed into the records of shaders/shared/scene.h: decoded, they give back the scene's data.
+#include "engine/scene/light_records.h"
+#include "engine/scene/texture_packing.h"
+#include "tests/reference/random.h"
+#include "tests/reference/simple_scenes.h"
+#include "tests/support/light_scenes.h"
+#include <algorithm>
+#include <catch2/catch_test_macros.hpp>
+#include <cmath>
+#include <glm/gtc/packing.hpp>
+
+using namespace irradia;
+using reference::Random;
+using reference::Vec3;
+
+namespace {
+
+glm::vec4 floats(const glm::uvec4& record) {
+    return glm::uintBitsToFloat(record);
+}
+
+// The octahedral map's inverse as Cigolle et al. 2014 state it.
+Vec3 decodeOctahedral(uint32_t code) {
+    const glm::dvec2 p(glm::unpackSnorm2x16(code));
+    Vec3 v(p.x, p.y, 1.0 - std::abs(p.x) - std::abs(p.y));
+    if (v.z < 0.0)
+        v = {(1.0 - std::abs(p.y)) * (p.x >= 0.0 ? 1.0 : -1.0),
+             (1.0 - std::abs(p.x)) * (p.y >= 0.0 ? 1.0 : -1.0), v.z};
+    return glm::normalize(v);
+}
+
+Vertex vertexWithNormal(const glm::vec3& normal) {
+    Vertex v;
+    v.normal = normal;
+    v.tangent = glm::vec4(normal.y, normal.z, normal.x, normal.x < 0.0f ? -1.0f : 1.0f);
+    v.position = 3.0f * normal;
+    v.uv[0] = {normal.x, normal.y};
+    v.uv[1] = {normal.z, -normal.x};
+    return v;
+}
+
+TextureImage gradient(const char* name, int width, int height) {
+    TextureImage image{name, width, height, {}};
+    for (int i = 0; i < width * height; ++i)
+        image.rgba.insert(image.rgba.end(), {uint8_t(i), uint8_t(3 * i), uint8_t(255 - i), uint8_t(7 * i)});
+    return image;
+}
+
+// One triangle for every three normals; a material with a texture, so that there are attributes.
+Scene sceneOfNormals(const std::vector<glm::vec3>& normals) {
+    Scene scene;
+    scene.images = {gradient("gradient", 4, 4)};
+    Material material;
+    material.baseColorTexture.image = 0;
+    scene.materials = {material};
+    for (const glm::vec3& n : normals) scene.vertices.push_back(vertexWithNormal(n));
+    for (uint32_t i = 0; i + 2 < normals.size(); i += 3) scene.triangles.push_back({{i, i + 1, i + 2}, 0});
+    return scene;
+}
+
+std::vector<glm::vec3> manyNormals() {
+    std::vector<glm::vec3> normals;
+    for (const float x : {-1.0f, 0.0f, 1.0f})
+        for (const float y : {-1.0f, 0.0f, 1.0f})
+            for (const float z : {-1.0f, 0.0f, 1.0f})
+                if (x != 0.0f || y != 0.0f || z != 0.0f)
+                    normals.push_back(glm::normalize(glm::vec3(x, y, z)));
+    Random random(51);
+    while (normals.size() < 30000)
+        normals.emplace_back(reference::direction(2.0 * random.uniform() - 1.0, 6.2832 * random.uniform()));
+    return normals;
+}
+
+uint64_t textureCount(const SceneRecords& records) {
+    return records.textures.size();
+}
+
+} // namespace
+
+TEST_CASE("geometry and attributes decode to the vertices") {
+    const Scene scene = sceneOfNormals(manyNormals());
+    const SceneRecords records = packScene(scene);
+    REQUIRE(records.geometry.size() == scene.triangles.size() * gpu::kGeometryRecords);
+    REQUIRE(records.attributes.size() == scene.triangles.size() * gpu::kAttributeRecords);
+    // A code is off by e = 1 / 65534 at most in each axis: (e, e, 2 e) before a division by a length of 1 /
+    // sqrt(3) or more.
+    const double kOctahedralError = std::sqrt(18.0) / 65534.0;
+    for (size_t i = 0; i < scene.triangles.size(); ++i) {
+        const glm::uvec4* g = &records.geometry[i * gpu::kGeometryRecords];
+        const glm::uvec4* a = &records.attributes[i * gpu::kAttributeRecords];
+        const Vertex* v = &scene.vertices[3 * i];
+        REQUIRE(glm::vec3(floats(g[0])) == v[0].position);
+        REQUIRE(glm::vec3(floats(g[1])) == v[1].position - v[0].position);
+        REQUIRE(glm::vec3(floats(g[2])) == v[2].position - v[0].position);
+        REQUIRE((g[0].w == 0u && g[1].w == gpu::kNoLight));
+        REQUIRE(floats(a[0]) == glm::vec4(v[0].uv[0], v[1].uv[0]));
+        REQUIRE(floats(a[1]) == glm::vec4(v[2].uv[0], v[0].uv[1]));
+        REQUIRE(floats(a[2]) == glm::vec4(v[1].uv[1], v[2].uv[1]));
+        for (int k = 0; k < 3; ++k) {
+            REQUIRE(glm::length(decodeOctahedral(g[3][k]) - Vec3(v[k].normal)) < kOctahedralError);
+            REQUIRE(glm::length(decodeOctahedral(a[3][k]) - Vec3(v[k].tangent)) < kOctahedralError);
+            REQUIRE((g[2].w >> k & 1u) == (v[k].tangent.w < 0.0f ? 1u : 0u));
+            REQUIRE(a[3][k] != gpu::kNoTangent);
+        }
+    }
+}
+
+TEST_CASE("a missing tangent has the code that no direction has") {
+    Scene scene = sceneOfNormals(manyNormals());
+    scene.vertices[1].tangent = glm::vec4(0.0f);
+    const SceneRecords records = packScene(scene);
+    CHECK(records.attributes[3].y == gpu::kNoTangent);
+}
+
+TEST_CASE("materials hold their factors; F0 is that of ior times the specular colour") {
+    Scene scene;
+    Material m;
+    m.baseColor = {0.1f, 0.2f, 0.3f};
+    m.metallic = 0.4f, m.roughness = 0.5f, m.specular = 0.6f, m.ior = 1.8f, m.normalScale = 0.7f;
+    m.specularColor = {0.8f, 0.9f, 1.0f};
+    m.emission = {4.0f, 5.0f, 6.0f};
+    m.doubleSided = true;
+    scene.materials = {Material{}, m};
+    const SceneRecords records = packScene(scene);
+    REQUIRE(records.materials.size() == 2 * gpu::kMaterialRecords);
+    const glm::uvec4* r = &records.materials[gpu::kMaterialRecords];
+    CHECK(floats(r[0]) == glm::vec4(m.baseColor, m.metallic));
+    CHECK(floats(r[1]) == glm::vec4(m.emission, m.roughness));
+    const glm::dvec3 f0 = std::pow(0.8 / 2.8, 2.0) * glm::dvec3(m.specularColor);
+    CHECK(glm::length(glm::dvec3(floats(r[2])) - f0) < 1e-7);
+    CHECK(floats(r[2]).w == m.specular);
+    CHECK(glm::uintBitsToFloat(r[3].x) == m.normalScale);
+    CHECK(r[3].y == gpu::kMaterialDoubleSided);
+    CHECK(records.materials[3].y == 0u);
+    for (int k = 0; k < 4; ++k) CHECK(r[4][k] == gpu::kNoTexture);
+    CHECK((r[5].x == gpu::kNoTexture && r[5].y == gpu::kNoTexture));
+    CHECK(records.attributes.empty());
+    CHECK(records.needs.textures == 0u);
+}
+
+TEST_CASE("what the scene needs of the kernels follows from its contents") {
+    Scene scene;
+    scene.materials = {reference::lambert(glm::vec3(0.5f))};
+    SceneNeeds needs = packScene(scene).needs;
+    CHECK((needs.diffuse && !needs.specular && !needs.emitters && !needs.environment));
+    scene.materials[0].metallic = 1.0f;
+    needs = packScene(scene).needs;
+    CHECK((!needs.diffuse && needs.specular));
+    scene.environment.constant = glm::vec3(0.1f);
+    CHECK(packScene(scene).needs.environment);
+    reference::addQuad(scene, reference::addMaterial(scene, reference::lambert(glm::vec3(0), glm::vec3(1))),
+                       {0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+    CHECK(packScene(scene).needs.emitters);
+    scene.images = {gradient("gradient", 4, 4)};
+    scene.materials[0].normalTexture.image = 0;
+    CHECK(packScene(scene).needs.textures == gpu::kNormalTexture);
+    // Without emission its texture is not needed either.
+    scene.materials[0].emissiveTexture.image = 0;
+    CHECK(packScene(scene).needs.textures == gpu::kNormalTexture);
+}
+
+TEST_CASE("a picture is stored once for each encoding, a record once for each way of wrapping") {
+    Scene scene;
+    scene.images = {gradient("gradient", 8, 4)};
+    TextureRef plain;
+    plain.image = 0;
+    TextureRef clamped = plain, secondSet = plain;
+    clamped.wrapS = Wrap::ClampToEdge;
+    secondSet.uvSet = 1;
+    Material a, b;
+    a.baseColorTexture = plain;
+    b.baseColorTexture = secondSet; // the same record: the set is in the code
+    scene.materials = {a, b};
+    SceneRecords records = packScene(scene);
+    CHECK((textureCount(records) == 1 && records.texels.size() == 32));
+    CHECK(records.materials[4].x == 0u);
+    CHECK(records.materials[gpu::kMaterialRecords + 4].x == 1u);
+    b.baseColorTexture = clamped;
+    scene.materials = {a, b};
+    records = packScene(scene);
+    CHECK((textureCount(records) == 2 && records.texels.size() == 32));
+    CHECK(records.textures[1] == glm::uvec4(0u, 8u, 4u, 2u));
+    b.metallicRoughnessTexture = plain; // linear, no longer sRGB
+    scene.materials = {a, b};
+    records = packScene(scene);
+    CHECK((textureCount(records) == 3 && records.texels.size() == 64));
+}
+
+TEST_CASE("texels are the decoded colours rounded to halves") {
+    Scene scene;
+    scene.images = {gradient("gradient", 16, 16)};
+    Material m;
+    m.baseColorTexture.image = m.metallicRoughnessTexture.image = 0;
+    scene.materials = {m};
+    const SceneRecords records = packScene(scene);
+    REQUIRE(records.texels.size() == 512);
+    for (const glm::uvec4& texture : records.textures) {
+        const bool srgb = texture.x == records.textures[records.materials[4].x >> 1].x;
+        for (size_t i = 0; i < 256; ++i) {
+            const glm::uvec2 halves = records.texels[texture.x + i];
+            const glm::vec4 texel(glm::unpackHalf2x16(halves.x), glm::unpackHalf2x16(halves.y));
+            for (int k = 0; k < 4; ++k) {
+                const double c = scene.images[0].rgba[4 * i + k] / 255.0;
+                const double decoded = c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+                const double exact = srgb && k < 3 ? decoded : c; // alpha is never sRGB
+                REQUIRE(std::abs(texel[k] - exact) <= 0x1p-11 * exact);
+            }
+        }
+    }
+}
+
+TEST_CASE("pictures beyond the budget are halved, largest first, and keep their mean") {
+    Scene scene;
+    scene.images = {gradient("large", 64, 32), gradient("small", 8, 8), gradient("odd", 33, 1)};
+    TexturePacker packer(scene);
+    for (int i = 0; i < 3; ++i) {
+        TextureRef texture;
+        texture.image = i;
+        CHECK(packer.add(texture, false) == static_cast<uint32_t>(i) << 1);
+    }
+    std::vector<glm::uvec4> textures;
+    std::vector<glm::uvec2> texels;
+    std::vector<std::string> warnings;
+    packer.pack(700, textures, texels, warnings);
+    CHECK(texels.size() == 512 + 64 + 33);
+    REQUIRE(textures.size() == 3);
+    CHECK((textures[0].y == 32u && textures[0].z == 16u));
+    CHECK((textures[1].y == 8u && textures[1].z == 8u));
+    REQUIRE(warnings.size() == 1);
+    CHECK(warnings[0] == "texture 'large' was reduced to 32x16 to fit");
+    double mean = 0.0, exact = 0.0;
+    for (size_t i = 0; i < 512; ++i) mean += glm::unpackHalf2x16(texels[textures[0].x + i].x).x / 512.0;
+    for (size_t i = 0; i < 2048; ++i) exact += scene.images[0].rgba[4 * i] / 255.0 / 2048.0;
+    CHECK(std::abs(mean - exact) < 1e-4);
+
+    textures.clear(), texels.clear(), warnings.clear();
+    packer.pack(8, textures, texels, warnings);
+    CHECK(texels.size() <= 8);
+    CHECK(warnings.size() == 3);
+}
+
+TEST_CASE("lights have the mass of their power, the environment's texels that of luminance and solid angle") {
+    const Scene scene = test::manyEmitters(100);
+    const SceneRecords records = packScene(scene);
+    REQUIRE(records.lights.size() == 100);
+    double total = 0.0;
+    for (uint32_t i = 0; i < 100; ++i) {
+        CHECK(records.lights[i].z == i); // its primitive
+        CHECK(records.geometry[i * gpu::kGeometryRecords + 1].w == i);
+        total += glm::uintBitsToFloat(records.lights[i].w);
+    }
+    CHECK(std::abs(total - 1.0) < 1e-5);
+
+    SceneRecords sky;
+    packEnvironment(test::skyWithSun(16, 8), sky);
+    REQUIRE((sky.environmentWidth == 16u && sky.environmentHeight == 8u));
+    double mass = 0.0;
+    for (const glm::uvec4& texel : sky.environment) mass += floats(texel).w / 128.0;
+    CHECK(std::abs(mass - 1.0) < 1e-5);
+
+    Environment constant;
+    constant.constant = {1.0f, 2.0f, 3.0f};
+    SceneRecords even;
+    packEnvironment(constant, even);
+    REQUIRE(even.environment.size() == size_t(even.environmentWidth) * even.environmentHeight);
+    for (size_t i = 0; i < even.environment.size(); ++i) {
+        // density / (2 pi^2 sin(theta)) at the texel's middle is 1 / (4 pi) but for the row's curvature.
+        const double v = (double(i / even.environmentWidth) + 0.5) / even.environmentHeight;
+        const double pdf = floats(even.environment[i]).w /
+                           (2.0 * reference::kPi * reference::kPi * std::sin(reference::kPi * v));
+        REQUIRE(std::abs(pdf * 4.0 * reference::kPi - 1.0) < 1e-3);
+        REQUIRE(glm::vec3(floats(even.environment[i])) == constant.constant);
+    }
+}

@@ -1,5 +1,7 @@
 #include "frame_stats.h"
 
+#include <fmt/format.h>
+
 namespace irradia {
 
 nlohmann::ordered_json frameStats(RenderSession& session) {

@@ -26,23 +26,23 @@ double rate(uint64_t units, double elapsed) {
 
 } // namespace
 
-Progress::Progress(std::string task, const std::string& mode, std::string unit)
+ProgressMeter::ProgressMeter(std::string task, const std::string& mode, std::string unit)
     : task_(std::move(task))
     , unit_(std::move(unit))
     , form_(formOf(mode)) {}
 
-Progress::~Progress() {
+ProgressMeter::~ProgressMeter() {
     if (lineOpen_) fmt::print(stderr, "\n");
 }
 
-Progress::Form Progress::formOf(const std::string& mode) {
+ProgressMeter::Form ProgressMeter::formOf(const std::string& mode) {
     if (mode == "json") return Form::Json;
     if (mode == "none") return Form::None;
     if (mode == "bar" || (mode == "auto" && ::isatty(STDERR_FILENO))) return Form::Bar;
     return Form::Lines;
 }
 
-double Progress::interval() const {
+double ProgressMeter::interval() const {
     switch (form_) {
     case Form::Bar:
         return 0.1;
@@ -53,19 +53,19 @@ double Progress::interval() const {
     }
 }
 
-void Progress::update(double fraction) {
+void ProgressMeter::update(double fraction) {
     ++units_;
     fraction_ = std::clamp(fraction, 0.0, 1.0);
     if (std::chrono::duration<double>(Clock::now() - shown_).count() >= interval()) show();
 }
 
-void Progress::finish() {
+void ProgressMeter::finish() {
     show();
     if (lineOpen_) fmt::print(stderr, "\n");
     lineOpen_ = false;
 }
 
-void Progress::show() {
+void ProgressMeter::show() {
     shown_ = Clock::now();
     const double elapsed = std::chrono::duration<double>(shown_ - start_).count();
     switch (form_) {
@@ -85,20 +85,20 @@ void Progress::show() {
     std::fflush(stderr);
 }
 
-std::string Progress::barText(double elapsed) const {
+std::string ProgressMeter::barText(double elapsed) const {
     constexpr int kCells = 30;
     const int full = static_cast<int>(std::lround(fraction_ * kCells));
     return fmt::format("{} [{:#<{}}{:.<{}}] {}", task_, "", full, "", kCells - full, lineText(elapsed));
 }
 
-std::string Progress::lineText(double elapsed) const {
+std::string ProgressMeter::lineText(double elapsed) const {
     const std::string name = form_ == Form::Lines ? task_ + ": " : "";
     return fmt::format("{}{:.0f} %, {} {}, {:.3g} {}/s, {} so far, {} left", name, 100 * fraction_, units_,
                        unit_, rate(units_, elapsed), unit_, durationText(elapsed),
                        durationText(secondsLeft(elapsed)));
 }
 
-std::string Progress::jsonText(double elapsed) const {
+std::string ProgressMeter::jsonText(double elapsed) const {
     // An infinite number becomes null.
     return nlohmann::ordered_json{{"task", task_},        {"fraction", fraction_},
                                   {unit_, units_},        {"rate", rate(units_, elapsed)},
@@ -106,7 +106,7 @@ std::string Progress::jsonText(double elapsed) const {
         .dump();
 }
 
-double Progress::secondsLeft(double elapsed) const {
+double ProgressMeter::secondsLeft(double elapsed) const {
     return fraction_ > 0 ? elapsed * (1 - fraction_) / fraction_ : std::numeric_limits<double>::infinity();
 }
 

@@ -8,13 +8,13 @@
 
 namespace irradia {
 
-class Progress {
+class ProgressMeter {
 public:
     // mode: auto, bar, lines, json or none. `unit` is what one update stands for; the rate counts them.
-    Progress(std::string task, const std::string& mode, std::string unit = "frames");
-    ~Progress(); // leaves the bar's line, so that an error starts on its own
-    Progress(const Progress&) = delete;
-    Progress& operator=(const Progress&) = delete;
+    ProgressMeter(std::string task, const std::string& mode, std::string unit = "frames");
+    ~ProgressMeter(); // leaves the bar's line, so that an error starts on its own
+    ProgressMeter(const ProgressMeter&) = delete;
+    ProgressMeter& operator=(const ProgressMeter&) = delete;
 
     void update(double fraction); // one unit more is done; fraction of the whole task in [0, 1]
     void finish();                // the last state is always shown

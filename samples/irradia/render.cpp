@@ -48,7 +48,7 @@ void renderFrames(RenderSession& session, const RenderOptions& options) {
     const auto elapsed = [&] {
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     };
-    Progress progress("render", options.progress);
+    ProgressMeter progress("render", options.progress);
     if (options.seconds > 0.0) {
         for (uint32_t frame = range.first; elapsed() < options.seconds; ++frame) {
             session.renderFrame(frame);

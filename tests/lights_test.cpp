@@ -16,7 +16,7 @@ using test::toFloats;
 namespace {
 
 constexpr float kFarAway = 1e30f;
-constexpr double kLevel = 0.001; // of each test of distribution: eight make less than 1 %
+const double kLevel = reference::sidakLevel(0.01, 2); // of each test of distribution
 
 struct Sample {
     Vec3 direction;

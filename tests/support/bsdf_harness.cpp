@@ -23,9 +23,9 @@ Buffer caseBuffer(const std::vector<BsdfCase>& cases) {
 }
 
 const Buffer& reflectanceTable() {
-    validatedDevice(); // made first, so that it outlives the buffer
-    static const Buffer table = recordBuffer(buildReflectanceTable());
-    return table;
+    static const Buffer* table =
+        new Buffer(recordBuffer(buildReflectanceTable())); // never destroyed, as the device
+    return *table;
 }
 
 std::vector<BsdfEvaluation> evaluateBsdf(const std::vector<BsdfCase>& cases,

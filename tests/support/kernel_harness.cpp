@@ -6,12 +6,13 @@
 namespace irradia::test {
 
 Device& validatedDevice() {
-    static Device device([] {
+    // Never destroyed: the validation layer's own statics are gone before ours.
+    static Device* device = [] {
         DeviceOptions options;
         options.validation = true;
-        return options;
-    }());
-    return device;
+        return new Device(options);
+    }();
+    return *device;
 }
 
 bool fullSweep() {

@@ -7,6 +7,7 @@ void addBench(CLI::App& program) {
     CLI::App* bench = program.add_subcommand("bench", "Time kernels and the stages of a frame");
     bench->require_subcommand(1);
     addBenchFrame(*bench);
+    addBenchRays(*bench);
 }
 
 } // namespace irradia

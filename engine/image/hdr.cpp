@@ -81,18 +81,18 @@ private:
 
     void readResolution(LayeredImage& image) {
         const std::string text = line();
-        unsigned width = 0;
-        unsigned height = 0;
+        int width = 0;
+        int height = 0;
         int used = 0;
-        if (std::sscanf(text.c_str(), "-Y %9u +X %9u%n", &height, &width, &used) != 2 ||
+        if (std::sscanf(text.c_str(), "-Y %9d +X %9d%n", &height, &width, &used) != 2 ||
             static_cast<size_t>(used) != text.size())
             fail(ExitCode::BadData, "{}: HDR size line \"{}\" is not \"-Y height +X width\"", name_, text);
-        if (width == 0 || height == 0) fail(ExitCode::BadData, "{}: the picture is empty", name_);
-        if (uint64_t{width} * height > kMaxPixels)
+        if (width <= 0 || height <= 0) fail(ExitCode::BadData, "{}: the picture is empty", name_);
+        if (static_cast<uint64_t>(width) * static_cast<uint64_t>(height) > kMaxPixels)
             fail(ExitCode::BadData, "{}: {} x {} pixels are more than the {} allowed", name_, width, height,
                  kMaxPixels);
-        image.width = static_cast<int>(width);
-        image.height = static_cast<int>(height);
+        image.width = width;
+        image.height = height;
     }
 
     void readScanline(std::vector<Rgbe>& scanline) {

@@ -7,7 +7,6 @@
 #include <catch2/catch_test_macros.hpp>
 #include <cmath>
 #include <set>
-#include <stdexcept>
 
 using namespace irradia;
 using namespace irradia::test;
@@ -37,10 +36,9 @@ std::vector<Child> childrenOf(const Bvh& bvh, uint32_t item) {
     const uint32_t upper[3] = {r[1].w, r[2].x, r[2].y};
     std::vector<Child> children;
     for (uint32_t k = 0; k < 4; ++k) {
-        const uint32_t nibble = r[2].w >> (4 * k) & 15u;
-        if ((nibble & gpu::kChildPresent) == 0) continue;
+        if ((r[2].w >> k & 1u) == 0) continue;
         Child child;
-        child.item = (r[2].z >> gpu::kGroupBits) + (nibble & gpu::kOffsetMask);
+        child.item = (r[2].z >> gpu::kGroupBits) + k;
         for (int axis = 0; axis < 3; ++axis) {
             const double step = std::ldexp(1.0, static_cast<int>(r[0].w >> (8 * axis) & 255u) - 127);
             child.lower[axis] = origin[axis] + step * (lower[axis] >> (8 * k) & 255u);
@@ -51,15 +49,8 @@ std::vector<Child> childrenOf(const Bvh& bvh, uint32_t item) {
     return children;
 }
 
-// Primitives of a leaf whose first triangle is `item`.
-std::vector<uint32_t> leafAt(const Bvh& bvh, uint32_t item) {
-    std::vector<uint32_t> primitives;
-    for (;; ++item) {
-        const uint32_t word = itemAt(bvh, item)[0].w;
-        if ((word & gpu::kTriangleItem) == 0) throw std::runtime_error("a leaf runs into a node");
-        primitives.push_back(word & gpu::kPrimitiveMask);
-        if ((word & gpu::kMoreTriangles) == 0) return primitives;
-    }
+uint32_t primitiveAt(const Bvh& bvh, uint32_t item) {
+    return itemAt(bvh, item)[0].w & gpu::kPrimitiveMask;
 }
 
 struct Walk {
@@ -83,12 +74,11 @@ uint32_t walk(const Bvh& bvh, uint32_t item, uint32_t depth, Walk& out) {
             below = std::max(below, walk(bvh, child.item, depth + 1, out));
             continue;
         }
-        const std::vector<uint32_t> leaf = leafAt(bvh, child.item);
-        for (uint32_t i = 0; i < leaf.size(); ++i) ++out.visits[child.item + i];
-        out.primitives.insert(leaf.begin(), leaf.end());
-        out.references += static_cast<uint32_t>(leaf.size());
+        ++out.visits[child.item];
+        out.primitives.insert(primitiveAt(bvh, child.item));
+        ++out.references;
     }
-    return below + (children.size() > 1 ? 1 : 0);
+    return below + 1;
 }
 
 void checkStructure(const Scene& scene, const Bvh& bvh) {
@@ -117,8 +107,7 @@ bool reaches(const Bvh& bvh, uint32_t item, const glm::dvec3& point, uint32_t pr
             if (reaches(bvh, child.item, point, primitive)) return true;
             continue;
         }
-        const std::vector<uint32_t> leaf = leafAt(bvh, child.item);
-        if (std::find(leaf.begin(), leaf.end(), primitive) != leaf.end()) return true;
+        if (primitiveAt(bvh, child.item) == primitive) return true;
     }
     return false;
 }

@@ -61,15 +61,14 @@ bool visitTriangle(inout Traversal ray, bool isTriangle, uvec4 a, uvec4 b, uvec4
     return hit;
 }
 
-// Children hit, nearest first: entry distance with the child's offset in its lowest bits, all ones where missed. A
+// Children hit, nearest first: entry distance with the child's number in its lowest bits, all ones where missed. A
 // triangle item has no children present.
 uvec4 visitNode(Traversal ray, uvec4 a, uvec4 b, uvec4 c) {
     ivec4 enter, leave;
     intersectBoxes(a, b, c, ray.origin, ray.reciprocal, ray.tMax, enter, leave);
-    uvec4 child = uvec4(c.w, c.w >> 4, c.w >> 8, c.w >> 12);
-    uvec4 key = (uvec4(enter) & ~kOffsetMask) | (child & kOffsetMask);
+    uvec4 key = (uvec4(enter) & ~kChildMask) | uvec4(0u, 1u, 2u, 3u);
     key = mix(uvec4(kEndOfTraversal), key, lessThanEqual(enter, leave));
-    key = mix(uvec4(kEndOfTraversal), key, notEqual(child & kChildPresent, uvec4(0u)));
+    key = mix(uvec4(kEndOfTraversal), key, notEqual(c.w & uvec4(1u, 2u, 4u, 8u), uvec4(0u)));
     return sorted(key);
 }
 
@@ -80,7 +79,6 @@ void traversalStep(inout Traversal ray, const bool anyHit) {
     uvec4 b = loadRecord(bvh, record + 1u);
     uvec4 c = loadRecord(bvh, record + 2u);
     bool isTriangle = (a.w & kTriangleItem) != 0u;
-    bool moreTriangles = isTriangle && (a.w & kMoreTriangles) != 0u;
     uvec4 key = visitNode(ray, a, b, c);
     bool hit = visitTriangle(ray, isTriangle, a, b, c);
 
@@ -88,19 +86,19 @@ void traversalStep(inout Traversal ray, const bool anyHit) {
     // and a masked one costs a branch a lane.
     bool others = key.y != kEndOfTraversal;
     groupStack[ray.depth] = ray.group;
-    ray.depth += others && (ray.group & kOffsetMask) != kNoChild ? 1u : 0u;
-    uint group = c.z | (key.y & kOffsetMask) | ((key.z & kOffsetMask) << 3) | ((key.w & kOffsetMask) << 6);
+    ray.depth += others && (ray.group & kChildMask) != kNoChild ? 1u : 0u;
+    uint group = c.z | (key.y & kChildMask) | ((key.z & kChildMask) << kChildBits) | ((key.w & kChildMask) << 2u * kChildBits);
     ray.group = others ? group : ray.group;
 
-    bool back = key.x == kEndOfTraversal && !moreTriangles;
-    uint next = moreTriangles ? ray.item + 1u : (c.z >> kGroupBits) + (key.x & kOffsetMask);
+    bool back = key.x == kEndOfTraversal;
+    uint next = (c.z >> kGroupBits) + (key.x & kChildMask);
     uint outer = groupStack[ray.depth - 1u];
-    bool pop = back && (ray.group & kOffsetMask) == kNoChild;
+    bool pop = back && (ray.group & kChildMask) == kNoChild;
     ray.group = pop ? outer : ray.group;
     ray.depth -= pop ? 1u : 0u;
-    bool end = (back && (ray.group & kOffsetMask) == kNoChild) || (anyHit && hit);
-    next = back ? (ray.group >> kGroupBits) + (ray.group & kOffsetMask) : next;
-    uint rest = (ray.group & ~kGroupMask) | ((ray.group & kGroupMask) >> kOffsetBits) | kLastOffset;
+    bool end = (back && (ray.group & kChildMask) == kNoChild) || (anyHit && hit);
+    next = back ? (ray.group >> kGroupBits) + (ray.group & kChildMask) : next;
+    uint rest = (ray.group & ~kGroupMask) | ((ray.group & kGroupMask) >> kChildBits) | kLastChild;
     ray.group = back ? rest : ray.group;
     ray.item = end ? kEndOfTraversal : next;
 }

@@ -1,5 +1,9 @@
 // Traversal of the hierarchy of shared/bvh.h, one ray a lane, in steps that are the same for every lane: three
 // loads, four boxes and a triangle under selects. The including kernel has declared RECORDS_READ(0, bvh).
+//
+// Measured on lavapipe with 8 lanes, and left out: a stack entry a child, three pushes a step (up to 6 % slower, under
+// branches 15 %); 8 steps between refills (5-14 %), 8 rays a lane (up to 10 %); leaves of two triangles, uniform texel
+// buffers, workgroups of 8, 16 or 64 (no difference).
 #include "lib/intersect.glsl"
 #include "shared/bvh.h"
 #include "shared/queue.h"
@@ -87,7 +91,8 @@ void traversalStep(inout Traversal ray, const bool anyHit) {
     bool others = key.y != kEndOfTraversal;
     groupStack[ray.depth] = ray.group;
     ray.depth += others && (ray.group & kChildMask) != kNoChild ? 1u : 0u;
-    uint group = c.z | (key.y & kChildMask) | ((key.z & kChildMask) << kChildBits) | ((key.w & kChildMask) << 2u * kChildBits);
+    uint group = c.z | (key.y & kChildMask) | (key.z & kChildMask) << kChildBits |
+                 (key.w & kChildMask) << (2u * kChildBits);
     ray.group = others ? group : ray.group;
 
     bool back = key.x == kEndOfTraversal;

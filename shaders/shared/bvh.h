@@ -30,7 +30,7 @@ SHARED_CONST uint kChildMask = 7u;
 SHARED_CONST uint kNoChild = 7u;
 SHARED_CONST uint kGroupBits = 9u;
 SHARED_CONST uint kGroupMask = 511u;
-SHARED_CONST uint kLastChild = 7u << 6; // what a group is filled up with when its first child is taken off
+SHARED_CONST uint kLastChild = 7u << 6; // kNoChild in the last place: what a group is filled up with when its first child is taken off
 
 // Groups on a ray's stack. The builder keeps what its tree can need within it.
 SHARED_CONST uint kTraversalStack = 64u;

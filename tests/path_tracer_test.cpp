@@ -12,12 +12,13 @@ using namespace irradia;
 namespace {
 
 Device& device() {
-    static Device shared([] {
+    // Never destroyed: the validation layer is gone when statics are.
+    static Device* shared = [] {
         DeviceOptions options;
         options.validation = true;
-        return options;
-    }());
-    return shared;
+        return new Device(options);
+    }();
+    return *shared;
 }
 
 PathTracerOptions picture(uint32_t size, uint32_t maxBounces) {

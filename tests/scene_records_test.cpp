@@ -5,6 +5,7 @@
 #include "tests/reference/simple_scenes.h"
 #include "tests/support/light_scenes.h"
 #include <algorithm>
+#include <bit>
 #include <catch2/catch_test_macros.hpp>
 #include <cmath>
 #include <glm/gtc/packing.hpp>
@@ -16,7 +17,7 @@ using reference::Vec3;
 namespace {
 
 glm::vec4 floats(const glm::uvec4& record) {
-    return glm::uintBitsToFloat(record);
+    return std::bit_cast<glm::vec4>(record);
 }
 
 // The octahedral map's inverse as Cigolle et al. 2014 state it.

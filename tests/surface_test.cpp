@@ -10,6 +10,7 @@
 #include "tests/shaders/harness.h"
 #include "tests/support/kernel_harness.h"
 #include <algorithm>
+#include <bit>
 #include <catch2/catch_test_macros.hpp>
 
 using namespace irradia;
@@ -111,7 +112,8 @@ std::vector<glm::uvec4> loadSurfaces(const Scene& scene, const std::vector<Query
     const GpuScene gpu = uploadScene(test::validatedDevice(), packScene(scene), Bvh{}, sceneBounds(scene));
     std::vector<glm::uvec4> records;
     for (const Query& q : queries) {
-        records.emplace_back(glm::uvec3(glm::floatBitsToUint(glm::vec3(-q.ray.direction))), q.hit.triangle);
+        records.emplace_back(glm::uvec3(std::bit_cast<glm::uvec3>(glm::vec3(-q.ray.direction))),
+                             q.hit.triangle);
         records.push_back(test::toRecord(glm::vec4(q.hit.u, q.hit.v, 0, 0)));
     }
     test::KernelHarness kernel(kernels::scene_load_surface, {{gpu::kConstantTextures, gpu.needs.textures}});
@@ -147,7 +149,7 @@ TEST_CASE("textures are bilinear, wrapped by texel and decoded before filtering"
         const size_t k = i % uses.size();
         const glm::vec2 uv(12.0 * random.uniform() - 6.0, 12.0 * random.uniform() - 6.0);
         const glm::uvec4 codes = records.materials[(k / 2) * gpu::kMaterialRecords + 4];
-        queries.emplace_back(glm::floatBitsToUint(uv), k % 2 == 0 ? codes.x : codes.y, 0u);
+        queries.emplace_back(std::bit_cast<glm::uvec2>(uv), k % 2 == 0 ? codes.x : codes.y, 0u);
     }
     const GpuScene gpu = uploadScene(test::validatedDevice(), records, Bvh{}, Bounds{});
     test::KernelHarness kernel(kernels::scene_sample_texture);
@@ -158,7 +160,7 @@ TEST_CASE("textures are bilinear, wrapped by texel and decoded before filtering"
                    queries.size(), queries.size());
     for (size_t i = 0; i < queries.size(); ++i) {
         const Use& u = uses[i % uses.size()];
-        const glm::dvec2 uv(glm::uintBitsToFloat(glm::uvec2(queries[i])));
+        const glm::dvec2 uv(std::bit_cast<glm::vec2>(glm::uvec2(queries[i])));
         const glm::dvec4 expected = reference::sampleTexture(scene, u.texture, uv, u.encoding);
         INFO("image " << u.texture.image << " at " << uv.x << ' ' << uv.y);
         // Halves hold 11 bits; u times the width rounds at 1e-6 of a texel.

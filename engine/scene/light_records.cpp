@@ -3,6 +3,7 @@
 #include "engine/scene/alias_table.h"
 #include "engine/scene/texture_packing.h"
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
 
@@ -71,8 +72,8 @@ std::vector<uint32_t> packLights(const Scene& scene, std::vector<glm::uvec4>& li
     }
     const std::vector<AliasEntry> table = buildAliasTable(powers);
     for (size_t i = 0; i < table.size(); ++i)
-        lights.emplace_back(glm::floatBitsToUint(table[i].keep), table[i].alias, primitives[i],
-                            glm::floatBitsToUint(static_cast<float>(table[i].mass)));
+        lights.emplace_back(std::bit_cast<uint32_t>(table[i].keep), table[i].alias, primitives[i],
+                            std::bit_cast<uint32_t>(static_cast<float>(table[i].mass)));
     return lightOf;
 }
 
@@ -96,8 +97,8 @@ void packEnvironment(const Environment& environment, SceneRecords& out) {
     const std::vector<AliasEntry> table = buildAliasTable(weights);
     for (size_t i = 0; i < count; ++i) {
         const float density = static_cast<float>(table[i].mass * double(count));
-        out.environment.push_back(glm::floatBitsToUint(glm::vec4(picture.texels[i], density)));
-        out.environmentAlias.emplace_back(glm::floatBitsToUint(table[i].keep), table[i].alias, 0u, 0u);
+        out.environment.push_back(std::bit_cast<glm::uvec4>(glm::vec4(picture.texels[i], density)));
+        out.environmentAlias.emplace_back(std::bit_cast<uint32_t>(table[i].keep), table[i].alias, 0u, 0u);
     }
     out.environmentWidth = static_cast<uint32_t>(picture.width);
     out.environmentHeight = static_cast<uint32_t>(picture.height);

@@ -4,6 +4,7 @@
 #include "engine/scene/light_records.h"
 #include "engine/scene/texture_packing.h"
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <glm/gtc/packing.hpp>
 
@@ -11,11 +12,15 @@ namespace irradia {
 
 namespace {
 
+uint32_t bits(float value) {
+    return std::bit_cast<uint32_t>(value);
+}
+
 glm::uvec4 record(const glm::vec3& v, uint32_t w) {
-    return {glm::floatBitsToUint(v.x), glm::floatBitsToUint(v.y), glm::floatBitsToUint(v.z), w};
+    return glm::uvec4(bits(v.x), bits(v.y), bits(v.z), w);
 }
 glm::uvec4 record(const glm::vec4& v) {
-    return glm::floatBitsToUint(v);
+    return {bits(v.x), bits(v.y), bits(v.z), bits(v.w)};
 }
 
 // Octahedral map of a unit vector (Cigolle et al. 2014).
@@ -72,8 +77,8 @@ void packMaterials(const Scene& scene, SceneRecords& out) {
         out.materials.push_back(record(glm::vec4(m.baseColor, m.metallic)));
         out.materials.push_back(record(glm::vec4(m.emission, m.roughness)));
         out.materials.push_back(record(glm::vec4(r * r * m.specularColor, m.specular)));
-        out.materials.emplace_back(glm::floatBitsToUint(m.normalScale),
-                                   m.doubleSided ? gpu::kMaterialDoubleSided : 0u, 0u, 0u);
+        out.materials.emplace_back(bits(m.normalScale), m.doubleSided ? gpu::kMaterialDoubleSided : 0u, 0u,
+                                   0u);
         const uint32_t base = use(m.baseColorTexture, true, gpu::kBaseColorTexture);
         const uint32_t rough = use(m.metallicRoughnessTexture, false, gpu::kMetallicRoughnessTexture);
         const uint32_t normal = use(m.normalTexture, false, gpu::kNormalTexture);

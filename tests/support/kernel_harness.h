@@ -21,10 +21,10 @@ inline Specialisation floatConstant(uint32_t id, float value) {
 
 // Record and floats, bit by bit.
 inline glm::uvec4 toRecord(const glm::vec4& v) {
-    return glm::floatBitsToUint(v);
+    return std::bit_cast<glm::uvec4>(v);
 }
 inline glm::vec4 toFloats(const glm::uvec4& v) {
-    return glm::uintBitsToFloat(v);
+    return std::bit_cast<glm::vec4>(v);
 }
 
 class KernelHarness {

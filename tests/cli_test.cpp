@@ -1,0 +1,200 @@
+// The program as a user meets it: results on stdout, one sentence on stderr, an exit code.
+#include "engine/image/image.h"
+#include "tests/support/temporary_folder.h"
+#include <catch2/catch_test_macros.hpp>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <sys/wait.h>
+
+using namespace irradia;
+using irradia::test::TemporaryFolder;
+using nlohmann::json;
+
+namespace {
+
+struct Run {
+    int code = -1;
+    std::string out;
+    std::string err;
+};
+
+std::string text(const std::vector<uint8_t>& bytes) {
+    return {bytes.begin(), bytes.end()};
+}
+
+Run irradiaProgram(const std::string& arguments) {
+    const TemporaryFolder folder;
+    const std::string command = IRRADIA_BIN_DIR "/irradia " + arguments + " >" + (folder / "out").string() +
+                                " 2>" + (folder / "err").string();
+    const int status = std::system(command.c_str());
+    REQUIRE(WIFEXITED(status));
+    return {WEXITSTATUS(status), text(folder.read("out")), text(folder.read("err"))};
+}
+
+// A run that ends in one sentence, which names a thing.
+void checkRefused(const std::string& arguments, int code, const std::string& named) {
+    const Run run = irradiaProgram(arguments);
+    INFO(arguments << "\n" << run.err);
+    CHECK(run.code == code);
+    CHECK(run.err.starts_with("irradia: "));
+    CHECK(run.err.find(named) != std::string::npos);
+    CHECK(std::ranges::count(run.err, '\n') == 1);
+}
+
+// A folder with a picture of 1, one of 1.1, and others.
+class Pictures : public TemporaryFolder {
+public:
+    Pictures() {
+        writeFlat("one.exr", 4, 3, 1.0f);
+        writeFlat("more.exr", 4, 3, 1.1f);
+        writeFlat("small.exr", 2, 2, 1.0f);
+        writeFlat("nan.exr", 4, 3, std::numeric_limits<float>::quiet_NaN());
+        LayeredImage depth;
+        depth.width = depth.height = 1;
+        depth.channels["Z"] = {1};
+        writeExr(*this / "depth.exr", depth);
+        const std::string notExr = "no picture at all";
+        write("text.exr", {reinterpret_cast<const uint8_t*>(notExr.data()), notExr.size()});
+    }
+
+    std::string at(const std::string& name) const { return (*this / name).string(); }
+    std::string pair(const std::string& test, const std::string& reference) const {
+        return "compare " + at(test) + " " + at(reference) + " ";
+    }
+
+private:
+    void writeFlat(const std::string& name, int width, int height, float value) {
+        LayeredImage image;
+        image.width = width;
+        image.height = height;
+        image.setRgb("", std::vector<glm::vec3>(static_cast<size_t>(width * height), glm::vec3(value)));
+        writeExr(*this / name, image);
+    }
+};
+
+bool near(double value, double expected) {
+    return std::abs(value - expected) < 1e-5 * (1 + std::abs(expected));
+}
+
+} // namespace
+
+TEST_CASE("help and version go to stdout") {
+    const Run help = irradiaProgram("--help");
+    CHECK(help.code == 0);
+    CHECK(help.err.empty());
+    for (const char* name :
+         {"render", "compare", "devices", "bench", "view", "train", "chart", "merge", "info", "validate"})
+        CHECK(help.out.find(std::string("\n  ") + name + " ") != std::string::npos);
+    const Run version = irradiaProgram("--version");
+    CHECK(version.code == 0);
+    CHECK(version.out.starts_with("irradia "));
+    CHECK(irradiaProgram("compare --help").code == 0);
+}
+
+TEST_CASE("wrong usage is one sentence and 64") {
+    checkRefused("", 64, "subcommand");
+    checkRefused("fly", 64, "unknown subcommand fly");
+    checkRefused("compare", 64, "required");
+    checkRefused("compare a b c", 64, "c");
+    checkRefused("compare a b --blur", 64, "--blur");
+    checkRefused("bench", 64, "subcommand");
+}
+
+TEST_CASE("what comes later says so") {
+    for (const std::string name : {"view", "train", "chart", "merge", "info", "validate"}) {
+        checkRefused(name, 64, name + " is not in this version");
+        checkRefused(name + " scene.glb --any 3 -o x", 64, name + " is not in this version");
+        CHECK(irradiaProgram(name + " --help").out.find("Comes later") != std::string::npos);
+    }
+}
+
+TEST_CASE("compare prints a table or JSON") {
+    const Pictures pictures;
+    const Run table = irradiaProgram(pictures.pair("more.exr", "one.exr"));
+    CHECK(table.code == 0);
+    CHECK(table.err.empty());
+    for (const char* name : {"mse ", "relmse ", "mape ", "mean_ratio ", "flip ", "nonfinite "})
+        CHECK(table.out.find(name) != std::string::npos);
+
+    const Run run = irradiaProgram(pictures.pair("more.exr", "one.exr") + "--json");
+    CHECK(run.code == 0);
+    const json result = json::parse(run.out);
+    CHECK(result.size() == 6);
+    CHECK(near(result.at("mse"), 0.01));
+    CHECK(near(result.at("relmse"), 0.01 / 1.01));
+    CHECK(near(result.at("mape"), 0.1 / 1.01));
+    CHECK(near(result.at("mean_ratio"), 1.1));
+    CHECK(result.at("flip") == 0.0); // both are white on a screen
+    CHECK(result.at("nonfinite") == 0);
+}
+
+TEST_CASE("compare fails above a limit and only above it") {
+    const Pictures pictures;
+    const std::string differing = pictures.pair("more.exr", "one.exr");
+    CHECK(irradiaProgram(differing + "--fail-above mse=0.011").code == 0);
+    CHECK(irradiaProgram(differing + "--fail-above mse=0.011 --fail-above mape=0.2").code == 0);
+    CHECK(irradiaProgram(pictures.pair("one.exr", "one.exr") + "--fail-above mse=0").code == 0);
+    checkRefused(differing + "--fail-above mse=0.009", 1, "mse 0.01 is above 0.009");
+    checkRefused(differing + "--fail-above mse=1 --fail-above mape=0.05", 1, "mape");
+    // The option may stand before the files, and the numbers are printed all the same.
+    const Run first = irradiaProgram("compare --json --fail-above mean_ratio=1 " + pictures.at("more.exr") +
+                                     " " + pictures.at("one.exr"));
+    CHECK(first.code == 1);
+    CHECK(near(json::parse(first.out).at("mean_ratio"), 1.1));
+}
+
+TEST_CASE("a picture of NaN passes no limit") {
+    const Pictures pictures;
+    const Run run = irradiaProgram(pictures.pair("nan.exr", "one.exr") + "--json --fail-above mse=1000000");
+    CHECK(run.code == 1);
+    const json result = json::parse(run.out);
+    CHECK(result.at("mse").is_null());
+    CHECK(result.at("nonfinite") == 36);
+}
+
+TEST_CASE("compare names what it cannot use") {
+    const Pictures pictures;
+    checkRefused(pictures.pair("one.exr", "none.exr"), 66, "none.exr");
+    checkRefused(pictures.pair("text.exr", "one.exr"), 65, "text.exr");
+    checkRefused(pictures.pair("depth.exr", "depth.exr"), 65, "depth.exr: has no channel R");
+    checkRefused(pictures.pair("one.exr", "nan.exr"), 65, "not finite at pixel (0, 0)");
+    checkRefused(pictures.pair("one.exr", "small.exr"), 65, "4 x 3");
+    checkRefused(pictures.pair("one.exr", "small.exr"), 65, "2 x 2");
+    checkRefused(pictures.pair("one.exr", "one.exr") + "--fail-above psnr=3", 64, "psnr");
+    checkRefused(pictures.pair("one.exr", "one.exr") + "--fail-above mse", 64, "METRIC=X");
+    checkRefused(pictures.pair("one.exr", "one.exr") + "--fail-above mse=much", 64, "much");
+}
+
+TEST_CASE("a closed stdout is an error") {
+    const Pictures pictures;
+    const std::string command =
+        IRRADIA_BIN_DIR "/irradia " + pictures.pair("one.exr", "one.exr") + ">/dev/full 2>/dev/null";
+    const int status = std::system(command.c_str());
+    REQUIRE(WIFEXITED(status));
+    CHECK(WEXITSTATUS(status) == 74);
+}
+
+TEST_CASE("devices are listed, or their absence is") {
+    const Run run = irradiaProgram("devices --json");
+    const json devices = json::parse(run.out).at("devices");
+    CHECK(run.code == (devices.empty() ? 69 : 0));
+    for (const json& device : devices) {
+        for (const char* key : {"name", "type", "driver", "api"})
+            CHECK_FALSE(device.at(key).get<std::string>().empty());
+        CHECK(device.at("usable").get<bool>() == device.at("missing").empty());
+        CHECK(device.at("subgroup_size").get<int>() > 0);
+        CHECK(device.at("memory_bytes").get<uint64_t>() > 0);
+    }
+    const Run table = irradiaProgram("devices");
+    CHECK(std::ranges::count(table.out, '\n') == std::ptrdiff_t(devices.empty() ? 0 : devices.size() + 1));
+}
+
+TEST_CASE("no driver is 69 and a sentence") {
+    const std::string command =
+        "VK_DRIVER_FILES=/nonexistent.json VK_ICD_FILENAMES=/nonexistent.json " IRRADIA_BIN_DIR
+        "/irradia devices >/dev/null 2>&1";
+    const int status = std::system(command.c_str());
+    REQUIRE(WIFEXITED(status));
+    CHECK(WEXITSTATUS(status) == 69);
+}

@@ -1,0 +1,114 @@
+// `irradia render` as a program: the same command gives the same pixels at any number of threads, files are
+// whole, and bad input ends in one sentence and its exit code.
+#include "engine/image/image.h"
+#include "tests/support/temporary_folder.h"
+#include <catch2/catch_test_macros.hpp>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sys/wait.h>
+
+using namespace irradia;
+using irradia::test::TemporaryFolder;
+
+namespace {
+
+const std::string kScenes = IRRADIA_BIN_DIR "/../scenes/";
+
+struct Run {
+    int code = -1;
+    std::string log; // stderr
+};
+
+Run run(const std::string& environment, const std::string& arguments) {
+    const TemporaryFolder folder;
+    const std::string log = (folder / "log").string();
+    const std::string command =
+        environment + " " IRRADIA_BIN_DIR "/irradia " + arguments + " --progress none >/dev/null 2>" + log;
+    const int status = std::system(command.c_str());
+    std::ifstream file(log);
+    return {WEXITSTATUS(status), {std::istreambuf_iterator<char>(file), {}}};
+}
+
+} // namespace
+
+TEST_CASE("the same command gives the same pixels, with one thread or two, at any slicing") {
+    const TemporaryFolder folder;
+    const std::string arguments =
+        "render " + kScenes + "interior.glb --size 48x36 --frames 3 --max-bounces 6 --aov -o ";
+    std::vector<LayeredImage> images;
+    for (const char* threads : {"LP_NUM_THREADS=1", "LP_NUM_THREADS=2", "LP_NUM_THREADS=2"}) {
+        const std::string file = (folder / ("image" + std::to_string(images.size()) + ".exr")).string();
+        REQUIRE(run(threads, arguments + file).code == 0);
+        images.push_back(readExr(file));
+    }
+    CHECK(images[0].channels == images[1].channels);
+    CHECK(images[1].channels == images[2].channels);
+    for (const char* name : {"R", "G", "B", "Variance.R", "SampleCount.V", "Albedo.R", "N.X", "P.X", "Z"})
+        CHECK(images[0].channels.count(name) == 1);
+    for (const char* name : {"version", "device", "driver", "seed", "method", "options", "sceneHash"})
+        CHECK(images[0].attributes.count(std::string("irradia.") + name) == 1);
+    for (const float v : images[0].channels.at("R")) CHECK(std::isfinite(v));
+}
+
+TEST_CASE("a range of frames is the frames of that number") {
+    const TemporaryFolder folder;
+    const std::string base = "render " + kScenes + "cornell-box.glb --size 16x16 --max-bounces 2 -o ";
+    const auto render = [&](const std::string& frames) {
+        const std::string file = (folder / "frames.exr").string();
+        REQUIRE(run("", base + file + " --frames " + frames).code == 0);
+        return readExr(file).channels.at("G");
+    };
+    const auto whole = render("0-4"), first = render("0-2"), second = render("2-4");
+    for (size_t i = 0; i < whole.size(); ++i)
+        CHECK(std::abs(whole[i] - 0.5f * (first[i] + second[i])) <=
+              1e-5f * std::max(whole[i], 1.0f)); // sums round
+    CHECK(first != second);
+}
+
+TEST_CASE("stats say what a frame cost") {
+    const TemporaryFolder folder;
+    const std::string file = (folder / "stats.json").string();
+    REQUIRE(run("", "render " + kScenes + "cornell-box.glb --size 32x32 --frames 3 -o " +
+                        (folder / "o.exr").string() + " --png " + (folder / "o.png").string() + " --stats " +
+                        file)
+                .code == 0);
+    std::ifstream stream(file);
+    const auto stats = nlohmann::json::parse(stream);
+    CHECK(stats["width"] == 32);
+    CHECK(stats["frames"] == 3);
+    CHECK(stats["rays"] > 32 * 32);
+    CHECK(stats["memory_bytes"] > 0);
+    const auto& ms = stats["milliseconds"];
+    const double sum = ms["trace_shade"].get<double>() + ms["query"].get<double>() +
+                       ms["train"].get<double>() + ms["other"].get<double>();
+    CHECK(std::abs(sum - ms["total"].get<double>()) < 1e-6);
+    CHECK(std::filesystem::file_size(folder / "o.png") > 100);
+}
+
+TEST_CASE("bad input ends in a sentence and an exit code, and leaves the old file") {
+    const TemporaryFolder folder;
+    const std::string scene = kScenes + "cornell-box.glb";
+    const std::string out = (folder / "out.exr").string();
+    std::ofstream(out) << "old";
+    const std::pair<std::string, int> cases[] = {
+        {"render nowhere.glb -o " + out, 66},
+        {"render " + scene + " --size 0x5 -o " + out, 64},
+        {"render " + scene + " --frames 3-3 -o " + out, 64},
+        {"render " + scene + " --method nrc -o " + out, 64},
+        {"render " + scene + " --camera nobody -o " + out, 66},
+        {"render " + scene + " --device nothing -o " + out, 69},
+        {"render " + scene + " --network a.json -o " + out, 64},
+        {"render " + scene + " --size 16x16 -o " + (folder / "no/such/folder.exr").string(), 74},
+        {"render " + scene, 64},
+    };
+    for (const auto& [arguments, code] : cases) {
+        INFO(arguments);
+        const Run result = run("", arguments);
+        INFO(result.log);
+        CHECK(result.code == code);
+        CHECK(result.log.find("irradia: ") != std::string::npos);
+    }
+    std::ifstream file(out);
+    CHECK(std::string(std::istreambuf_iterator<char>(file), {}) == "old");
+}

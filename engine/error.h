@@ -23,7 +23,9 @@ enum class ExitCode : int {
 
 class Error : public std::runtime_error {
 public:
-    Error(ExitCode code, const std::string& sentence) : std::runtime_error(sentence), code_(code) {}
+    Error(ExitCode code, const std::string& sentence)
+        : std::runtime_error(sentence)
+        , code_(code) {}
     ExitCode code() const { return code_; }
 
 private:

@@ -6,8 +6,9 @@
 
 namespace irradia {
 
-// Throws Error: NotFound when the file is missing, BadData with one sentence that names the file and the thing
-// (accessor, node, extension) that cannot be used. Non-finite and degenerate triangles are dropped and counted.
+// Throws Error: NotFound when the file is missing, BadData with one sentence that names the file and the
+// thing (accessor, node, extension) that cannot be used. Non-finite and degenerate triangles are dropped and
+// counted.
 Scene loadScene(const std::filesystem::path& file);
 
 // An environment from "R,G,B" (a constant), or an .hdr or .exr picture. Throws Error as loadScene.
@@ -16,7 +17,8 @@ Environment loadEnvironment(const std::string& text);
 // A camera file: {"camera": {"position", "look_at", "up", "vfov_deg"}, "env": path | [r,g,b] | null}.
 struct CameraFile {
     Camera camera;
-    std::string environment; // what loadEnvironment takes, with the path resolved beside the file; empty if none
+    std::string
+        environment; // what loadEnvironment takes, with the path resolved beside the file; empty if none
 };
 CameraFile loadCameraFile(const std::filesystem::path& file);
 

@@ -39,7 +39,7 @@ struct Material {
     float ior = 1.5f;
     float specular = 1.0f;         // KHR_materials_specular, specularFactor
     glm::vec3 specularColor{1.0f}; // KHR_materials_specular, specularColorFactor
-    bool doubleSided = false;      // false: emits from its front face only; it blocks and scatters on both sides
+    bool doubleSided = false; // false: emits from its front face only; it blocks and scatters on both sides
 
     TextureRef baseColorTexture;         // sRGB, times baseColor
     TextureRef metallicRoughnessTexture; // linear, G times roughness, B times metallic
@@ -70,8 +70,8 @@ struct Camera {
     float verticalFov = 0.7f;             // radians
 };
 
-// Light from outside: an equirectangular picture (u = atan2(z, x) / 2 pi + 1/2, v = acos(y) / pi, first row = +Y,
-// bilinear, wraps in u and clamps in v), or a constant.
+// Light from outside: an equirectangular picture (u = atan2(z, x) / 2 pi + 1/2, v = acos(y) / pi, first row =
+// +Y, bilinear, wraps in u and clamps in v), or a constant.
 struct Environment {
     glm::vec3 constant{0.0f}; // radiance where there is no picture
     int width = 0;

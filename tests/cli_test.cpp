@@ -1,7 +1,10 @@
 // The program as a user meets it: results on stdout, one sentence on stderr, an exit code.
 #include "engine/image/image.h"
 #include "tests/support/temporary_folder.h"
+#include <algorithm>
 #include <catch2/catch_test_macros.hpp>
+#include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -197,4 +200,24 @@ TEST_CASE("no driver is 69 and a sentence") {
     const int status = std::system(command.c_str());
     REQUIRE(WIFEXITED(status));
     CHECK(WEXITSTATUS(status) == 69);
+}
+
+TEST_CASE("render tells its progress as JSON") {
+    const TemporaryFolder folder;
+    const Run run = irradiaProgram("render " IRRADIA_BIN_DIR
+                                   "/../scenes/cornell-box.glb --size 8x8 --frames 3 --device cpu "
+                                   "--max-bounces 1 --progress json -o " +
+                                   (folder / "a.exr").string());
+    INFO(run.err);
+    REQUIRE(run.code == 0);
+    std::istringstream lines(run.err);
+    json last;
+    for (std::string line; std::getline(lines, line);)
+        if (line.starts_with('{')) last = json::parse(line);
+    CHECK(last.at("task") == "render");
+    CHECK(last.at("fraction") == 1.0);
+    CHECK(last.at("frames") == 3);
+    CHECK(last.at("rate") > 0);
+    CHECK(last.at("eta_s") == 0.0);
+    CHECK(readExr(folder / "a.exr").width == 8);
 }

@@ -254,6 +254,9 @@ TEST_CASE("targets that cannot be replaced are refused by name") {
     expectError(ExitCode::Io, "is a folder", [&] { writeFileAtomically(folder / "", bytes); });
     expectError(ExitCode::Io, "not a regular file", [&] { writeFileAtomically("/dev/null", bytes); });
     CHECK(std::filesystem::is_character_file("/dev/null"));
+    expectError(ExitCode::Io, "nowhere", [&] { requireWritable(folder / "nowhere/a.bin"); });
+    requireWritable(folder / "a.bin");
+    CHECK(folder.entries() == 0);
 }
 
 TEST_CASE("a symbolic link stays one") {

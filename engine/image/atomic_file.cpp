@@ -92,4 +92,8 @@ void writeFileAtomically(const std::filesystem::path& file, std::span<const uint
     target.commit();
 }
 
+void requireWritable(const std::filesystem::path& file) {
+    AtomicFile{file};
+}
+
 } // namespace irradia

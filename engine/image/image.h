@@ -53,4 +53,7 @@ Rgba8Image toDisplay(int width, int height, std::span<const glm::vec3> radiance)
 // Writes bytes atomically (temporary, fsync, rename). Throws Error(Io).
 void writeFileAtomically(const std::filesystem::path& file, std::span<const uint8_t> bytes);
 
+// Throws that Error(Io) now rather than after long work. Leaves nothing behind.
+void requireWritable(const std::filesystem::path& file);
+
 } // namespace irradia

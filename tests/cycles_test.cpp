@@ -91,7 +91,9 @@ TEST_CASE("radiance agrees with Cycles") {
     if (!folder) SKIP("IRRADIA_SCENES is not set: the scenes of the comparison are outside the project");
     std::ifstream file(std::string(folder) + "/cycles-blocks.json");
     const auto scenes = nlohmann::json::parse(file)["scenes"];
-    Device device;
+    DeviceOptions options;
+    options.validation = true;
+    Device device(options);
     const uint32_t frames = std::getenv("IRRADIA_FULL") ? 512 : 96;
     for (const auto& [name, cycles] : scenes.items()) {
         INFO(name);
@@ -100,4 +102,5 @@ TEST_CASE("radiance agrees with Cycles") {
         WARN(name);
         compareWithCycles(film, cycles);
     }
+    CHECK(device.validationMessages() == 0);
 }

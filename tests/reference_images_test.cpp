@@ -64,15 +64,18 @@ TEST_CASE("own scenes agree with the CPU reference") {
     const reference::PathTracer tracer(scene);
     const double pilot =
         reference::medianRelativeSigma(renderCpu(tracer, chosen.camera, picture.size, picture.pilotSamples));
-    const double wanted = picture.pilotSamples * std::pow(pilot / kMedianSigma, 2.0) * 1.1;
+    const double wanted = picture.pilotSamples * std::pow(pilot / kMedianSigma, 2.0) * 1.25;
     const int samples = static_cast<int>(std::clamp(wanted, 256.0, double(picture.sampleLimit)));
 
-    Device device;
+    DeviceOptions options;
+    options.validation = true;
+    Device device(options);
     const auto gpu = renderGpu(device, scene, chosen.camera, picture.size, samples);
     const auto cpu = renderCpu(tracer, chosen.camera, picture.size, samples);
     const reference::ZTestResult result = reference::zTest(gpu, cpu);
     WARN(name << ", " << samples << " samples, median sigma " << reference::medianRelativeSigma(gpu)
               << " and " << reference::medianRelativeSigma(cpu) << ": " << result.summary());
     CHECK(result.accepted());
+    CHECK(device.validationMessages() == 0);
     CHECK(std::abs(result.meanRatio - 1.0) < picture.meanAgreement + 3.0 * result.meanRatioSigma);
 }

@@ -24,9 +24,19 @@ const glm::dmat3 kToXyz{
 const glm::dmat3 kFromXyz = glm::inverse(kToXyz);
 const glm::dvec3 kWhite = kToXyz * glm::dvec3(1);
 
+// The sRGB curve undone, for each of its 256 codes.
+std::array<double, 256> makeLinearValues() {
+    std::array<double, 256> values{};
+    for (size_t code = 0; code < values.size(); ++code) {
+        const double x = static_cast<double>(code) / 255;
+        values[code] = x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
+    }
+    return values;
+}
+
 double toLinear(uint8_t encoded) {
-    const double x = encoded / 255.0;
-    return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
+    static const std::array<double, 256> values = makeLinearValues();
+    return values[encoded];
 }
 
 // The opponent space of the contrast sensitivity functions: CIELAB's axes without its cube root.
@@ -83,27 +93,45 @@ Taps normalised(Taps taps) {
     return taps;
 }
 
-// Edge pixels are repeated outwards.
-Plane filterAlong(const Plane& in, Size size, const Taps& taps, bool horizontally) {
-    Plane out(in.size());
-    const int length = horizontally ? size.width : size.height;
-    const size_t step = horizontally ? 1 : static_cast<size_t>(size.width);
-    for (int y = 0; y < size.height; ++y)
-        for (int x = 0; x < size.width; ++x) {
-            const size_t pixel = static_cast<size_t>(y) * size.width + x;
-            const int at = horizontally ? x : y;
-            const size_t line = pixel - static_cast<size_t>(at) * step;
-            double sum = 0;
-            for (int k = -taps.radius; k <= taps.radius; ++k)
-                sum += taps.weights[static_cast<size_t>(k + taps.radius)] *
-                       in[line + static_cast<size_t>(std::clamp(at + k, 0, length - 1)) * step];
-            out[pixel] = static_cast<float>(sum);
+// out += weight * in, the step both directions are made of.
+void addScaled(std::vector<double>& out, const float* in, double weight) {
+    for (size_t i = 0; i < out.size(); ++i) out[i] += weight * in[i];
+}
+
+// Edge pixels are repeated outwards, along rows here and along columns below.
+Plane filterRows(const Plane& in, Size size, const Taps& taps) {
+    Plane out;
+    out.reserve(in.size());
+    const auto width = static_cast<size_t>(size.width);
+    const auto radius = static_cast<size_t>(taps.radius);
+    std::vector<float> padded(width + 2 * radius);
+    for (size_t row = 0; row < in.size(); row += width) {
+        for (size_t i = 0; i < padded.size(); ++i)
+            padded[i] = in[row + std::clamp(i, radius, radius + width - 1) - radius];
+        std::vector<double> sums(width);
+        for (size_t k = 0; k < taps.weights.size(); ++k) addScaled(sums, padded.data() + k, taps.weights[k]);
+        for (const double sum : sums) out.push_back(static_cast<float>(sum));
+    }
+    return out;
+}
+
+Plane filterColumns(const Plane& in, Size size, const Taps& taps) {
+    Plane out;
+    out.reserve(in.size());
+    const auto width = static_cast<size_t>(size.width);
+    for (int y = 0; y < size.height; ++y) {
+        std::vector<double> sums(width);
+        for (int k = -taps.radius; k <= taps.radius; ++k) {
+            const auto row = static_cast<size_t>(std::clamp(y + k, 0, size.height - 1));
+            addScaled(sums, in.data() + row * width, taps.weights[static_cast<size_t>(k + taps.radius)]);
         }
+        for (const double sum : sums) out.push_back(static_cast<float>(sum));
+    }
     return out;
 }
 
 Plane filterSeparably(const Plane& in, Size size, const Taps& alongX, const Taps& alongY) {
-    return filterAlong(filterAlong(in, size, alongX, true), size, alongY, false);
+    return filterColumns(filterRows(in, size, alongX), size, alongY);
 }
 
 // ---- what the eye resolves: contrast sensitivity as sums of Gaussians in degrees

@@ -84,6 +84,8 @@ void describe(LayeredImage& image, RenderSession& session, uint32_t frames, uint
 
 void render(const RenderOptions& options) {
     const FrameRange range = parseFrames(options.frames);
+    for (const std::string& file : {options.output, options.png, options.stats})
+        if (!file.empty()) requireWritable(file);
     RenderSession session(options.request);
     renderFrames(session, options);
 

@@ -143,10 +143,10 @@ TEST_CASE("what the scene needs of the kernels follows from its contents") {
     Scene scene;
     scene.materials = {reference::lambert(glm::vec3(0.5f))};
     SceneNeeds needs = packScene(scene).needs;
-    CHECK((needs.diffuse && !needs.specular && !needs.emitters && !needs.environment));
+    CHECK((!needs.specular && !needs.emitters && !needs.environment));
     scene.materials[0].metallic = 1.0f;
     needs = packScene(scene).needs;
-    CHECK((!needs.diffuse && needs.specular));
+    CHECK(needs.specular);
     scene.environment.constant = glm::vec3(0.1f);
     CHECK(packScene(scene).needs.environment);
     reference::addQuad(scene, reference::addMaterial(scene, reference::lambert(glm::vec3(0), glm::vec3(1))),

@@ -28,9 +28,17 @@ KernelOptions fitted(const SceneNeeds& needs) {
     options.constants = {{gpu::kConstantEnvironment, needs.environment},
                          {gpu::kConstantEmitters, needs.emitters},
                          {gpu::kConstantTextures, needs.textures},
-                         {gpu::kConstantSpecular, needs.specular},
-                         {gpu::kConstantDiffuse, needs.diffuse}};
+                         {gpu::kConstantSpecular, needs.specular}};
     return options;
+}
+
+// What path/scene.glsl reads of the scene, in its order.
+Pass& readSurfaces(Pass& pass, const GpuScene& scene) {
+    return pass.read(scene.geometry)
+        .read(scene.attributes)
+        .read(scene.materials)
+        .read(scene.textures)
+        .read(scene.texels);
 }
 
 } // namespace
@@ -137,8 +145,8 @@ void WavefrontPathTracer::bounce(uint32_t depth, uint32_t firstPixel, uint32_t s
                                    scene_.environmentHeight,
                                    scene_.environmentProbability,
                                    scene_.rayEpsilon,
-                                   options_.maxBounces + 1,
                                    parity,
+                                   0,
                                    0};
     const gpu::BeginBounceParams begin{parity, kernels_.intersectClosest.workgroupSize() * gpu::kRaysPerLane,
                                        kernels_.scatter.workgroupSize(), 0};
@@ -165,31 +173,20 @@ void WavefrontPathTracer::bounce(uint32_t depth, uint32_t firstPixel, uint32_t s
             .push(params)
             .dispatchIndirect(itemArguments);
     if (scene_.needs.emitters)
-        graph_.pass(kernels_.handleEmissiveHits)
-            .read(rays)
-            .read(hits_)
-            .read(counters_)
-            .readWrite(radiance_)
-            .read(scene_.geometry)
-            .read(scene_.attributes)
-            .read(scene_.materials)
-            .read(scene_.textures)
-            .read(scene_.texels)
+        readSurfaces(graph_.pass(kernels_.handleEmissiveHits)
+                         .read(rays)
+                         .read(hits_)
+                         .read(counters_)
+                         .readWrite(radiance_),
+                     scene_)
             .read(scene_.lights)
             .push(params)
             .dispatchIndirect(itemArguments);
     graph_.cut();
-    if (depth == params.maxDepth || scene_.triangles == 0) return;
+    // The last ray only adds emission.
+    if (depth == options_.maxBounces + 1 || scene_.triangles == 0) return;
 
-    graph_.pass(kernels_.scatter)
-        .read(rays)
-        .read(hits_)
-        .readWrite(counters_)
-        .read(scene_.geometry)
-        .read(scene_.attributes)
-        .read(scene_.materials)
-        .read(scene_.textures)
-        .read(scene_.texels)
+    readSurfaces(graph_.pass(kernels_.scatter).read(rays).read(hits_).readWrite(counters_), scene_)
         .read(scene_.lights)
         .read(scene_.environment)
         .read(scene_.environmentAlias)
@@ -217,15 +214,7 @@ void WavefrontPathTracer::bounce(uint32_t depth, uint32_t firstPixel, uint32_t s
 void WavefrontPathTracer::recordSurfaces(const Camera& camera, uint32_t firstPixel, uint32_t pathCount) {
     const gpu::SurfaceParams params{
         firstPixel, pathCount, 0, 0, glm::vec4(camera.position, 0), glm::vec4(camera.forward, 0)};
-    graph_.pass(kernels_.recordSurfaces)
-        .read(rays_[0])
-        .read(hits_)
-        .readWrite(surfaces_)
-        .read(scene_.geometry)
-        .read(scene_.attributes)
-        .read(scene_.materials)
-        .read(scene_.textures)
-        .read(scene_.texels)
+    readSurfaces(graph_.pass(kernels_.recordSurfaces).read(rays_[0]).read(hits_).readWrite(surfaces_), scene_)
         .push(params)
         .dispatch(pathCount);
 }

@@ -90,7 +90,6 @@ void packMaterials(const Scene& scene, SceneRecords& out) {
         out.materials.emplace_back(base, rough, normal, emissive);
         out.materials.emplace_back(specular, color, 0u, 0u);
         out.needs.specular |= m.specular > 0.0f || m.metallic > 0.0f;
-        out.needs.diffuse |= m.metallic < 1.0f || m.metallicRoughnessTexture.image >= 0;
     }
     packer.pack(kMaxBindingBytes / sizeof(glm::uvec2), out.textures, out.texels, out.warnings);
 }

@@ -14,7 +14,6 @@ struct SceneNeeds {
     bool emitters = false;    // emissive triangles
     uint32_t textures = 0;    // mask of gpu::kBaseColorTexture, ...
     bool specular = false;
-    bool diffuse = false;
 };
 
 struct SceneRecords {

@@ -2,7 +2,6 @@
 #extension GL_GOOGLE_include_directive : require
 // Rays that hit an emissive triangle: its radiance, weighted against light sampling.
 #include "lib/kernel.glsl"
-#include "lib/rng.glsl"
 #include "shared/path.h"
 #include "shared/queue.h"
 

@@ -6,6 +6,5 @@ layout(constant_id = 10) const bool kHasEnvironment = true;
 layout(constant_id = 11) const bool kHasEmitters = true;
 layout(constant_id = 12) const uint kTextureMask = 63u;
 layout(constant_id = 13) const bool kHasSpecular = true;
-layout(constant_id = 14) const bool kHasDiffuse = true;
 
 #endif

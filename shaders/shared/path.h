@@ -9,7 +9,6 @@ SHARED_CONST uint kConstantEnvironment = 10u; // the environment is not black
 SHARED_CONST uint kConstantEmitters = 11u;    // there are emissive triangles
 SHARED_CONST uint kConstantTextures = 12u;    // mask of kBaseColorTexture, ...
 SHARED_CONST uint kConstantSpecular = 13u;    // some material has a specular lobe
-SHARED_CONST uint kConstantDiffuse = 14u;     // some material has a diffuse lobe
 
 // A wave is a run of consecutive pixels; path index i of the wave belongs to pixel firstPixel + i.
 struct CameraParams {
@@ -38,9 +37,9 @@ struct BounceParams {
     uint environmentHeight;
     float environmentProbability; // of sampling the environment rather than the emissive triangles
     float rayEpsilon;             // length by which origins leave their surface
-    uint maxDepth;                // the ray of this number only adds emission
     uint queueParity;             // depth & 1: which counter of the RayQueue pair is current
-    uint pad;
+    uint pad0;                    // to a multiple of 16 bytes
+    uint pad1;
 };
 
 // begin_bounce writes the indirect arguments: three uints for tracing and three for per-item passes.

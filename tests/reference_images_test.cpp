@@ -27,7 +27,7 @@ struct Picture {
 // The default pictures leave the mean as noisy as they are: 3 sigma are added to what must agree.
 Picture wantedPicture() {
     if (std::getenv("IRRADIA_FULL"))
-        return {64, 64, 1 << 13, 0.005}; // door-room alone would want 2e5: an hour
+        return {64, 512, 1 << 13, 0.005}; // door-room alone would want 2e5: an hour
     return {16, 64, 512, 0.005};
 }
 

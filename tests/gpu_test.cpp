@@ -2,6 +2,7 @@
 #include "engine/error.h"
 #include "engine/graph/frame_graph.h"
 #include "kernels/shaders.h"
+#include "tests/support/validated_device.h"
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/matchers/catch_matchers_exception.hpp>
 #include <catch2/matchers/catch_matchers_string.hpp>
@@ -12,21 +13,9 @@ using namespace irradia;
 using Catch::Matchers::ContainsSubstring;
 using Catch::Matchers::MessageMatches;
 
-namespace {
+using irradia::test::deviceWith;
 
-// One device per form of the records for all tests: making one under validation takes a while. They are never
-// destroyed, since at exit the validation layer is gone before them.
-Device& deviceWith(RecordAccess records) {
-    static Device* devices[2] = {};
-    Device*& device = devices[records == RecordAccess::Texel ? 0 : 1];
-    if (!device) {
-        DeviceOptions options;
-        options.validation = true;
-        options.records = records;
-        device = new Device(options);
-    }
-    return *device;
-}
+namespace {
 
 struct ScaleParams {
     uint32_t count;

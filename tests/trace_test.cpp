@@ -5,6 +5,7 @@
 #include "shared/queue.h"
 #include "shared/trace.h"
 #include "tests/support/triangle_scenes.h"
+#include "tests/support/validated_device.h"
 #include <bit>
 #include <catch2/catch_test_macros.hpp>
 #include <cstdlib>
@@ -15,24 +16,13 @@
 using namespace irradia;
 using namespace irradia::test;
 
+using irradia::test::deviceWith;
+
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr uint32_t kUntouched = 0xabcdabcdu;
-
-// Never destroyed: the validation layer's own statics are gone before ours.
-Device& deviceWith(RecordAccess records) {
-    static Device* devices[2] = {};
-    Device*& device = devices[records == RecordAccess::Texel ? 0 : 1];
-    if (!device) {
-        DeviceOptions options;
-        options.validation = true;
-        options.records = records;
-        device = new Device(options);
-    }
-    return *device;
-}
 
 struct Ray {
     glm::vec3 origin{0.0f};

@@ -20,10 +20,12 @@ using glm::vec4;
 #define SHARED_BEGIN namespace irradia::gpu {
 #define SHARED_END }
 #define SHARED_CONST inline constexpr
+#define SHARED_FUNCTION constexpr
 #else
 #define SHARED_BEGIN
 #define SHARED_END
 #define SHARED_CONST const
+#define SHARED_FUNCTION
 #endif
 
 #endif

@@ -1,0 +1,109 @@
+// A model as JSON describes it, with tiny-cuda-nn's keys: encoding, network, loss, optimizer.
+//
+//     {"encoding": {"otype": "HashGrid", "n_levels": 8, ...}, "network": {"otype": "FullyFusedMLP",
+//     "n_neurons": 64, ...},
+//      "loss": {"otype": "RelativeL2Luminance"}, "optimizer": {"otype": "Ema", "decay": 0.99, "nested":
+//      {"otype": "Adam", ...}}}
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace irradia {
+
+enum class EncodingType {
+    Identity,
+    Frequency,
+    TriangleWave,
+    OneBlob,
+    SphericalHarmonics,
+    DenseGrid,
+    SparseGrid,
+    HashGrid
+};
+
+// One encoding of a composite, over consecutive inputs.
+struct EncodingConfig {
+    EncodingType type = EncodingType::Identity;
+    uint32_t dims = 0; // n_dims_to_encode; 0 = all inputs that are left (at most one such, or the last)
+
+    double scale = 1.0;  // Identity: scale * x + offset
+    double offset = 0.0; // Identity
+
+    uint32_t frequencies = 12; // Frequency, TriangleWave: n_frequencies, 1 to 16
+
+    uint32_t bins = 4;     // OneBlob: n_bins, 1 to 64
+    bool gaussian = false; // OneBlob: "kernel": "Gaussian" (exact) or "Quartic" (default)
+
+    uint32_t degree = 4; // SphericalHarmonics: bands 0 .. degree - 1, 1 to 4, degree^2 values of a direction
+
+    uint32_t levels = 8;           // grids: n_levels, 1 to 16
+    uint32_t featuresPerLevel = 2; // grids: n_features_per_level: 1, 2, 4, 8 or 16
+    uint32_t log2HashmapSize = 15; // HashGrid: log2_hashmap_size, entries a level at most, 4 to 24
+    uint32_t baseResolution = 16;  // grids: base_resolution
+    double perLevelScale = 2.0;    // grids: per_level_scale
+    bool mean = false;             // grids: "aggregation": "Mean" over levels, or "Concatenation" (default)
+};
+
+enum class Precision { Float, Half };
+enum class NetworkForm { Auto, Subgroup, Workgroup }; // Auto: by device class (CPU: subgroup, GPU: workgroup)
+enum class OutputActivation { None, ReLU, Exponential, Softplus };
+
+struct NetworkConfig {
+    uint32_t width = 64;       // n_neurons: 16, 32, 64 or 128
+    uint32_t hiddenLayers = 5; // n_hidden_layers, 1 to 8
+    OutputActivation outputActivation = OutputActivation::None;
+    Precision precision =
+        Precision::Float; // "precision": "Float" or "Half": weights and activations; sums are single
+    NetworkForm form = NetworkForm::Auto; // "form": "Auto", "Subgroup", "Workgroup"
+};
+
+enum class LossType { L2, RelativeL2, RelativeL2Luminance };
+
+struct LossConfig {
+    LossType type = LossType::L2;
+    double epsilon = 0.01; // added to the squared prediction of relative losses
+    // The denominator is raised to a power that goes linearly from exponentStart to exponentEnd over the
+    // steps [annealStart, annealEnd]: 1 = relative, 0 = plain L2.
+    double exponentStart = 1.0;
+    double exponentEnd = 1.0;
+    uint32_t annealStart = 0;
+    uint32_t annealEnd = 0;
+};
+
+struct OptimizerConfig {
+    double learningRate = 1e-2;     // of the network's weights
+    double gridLearningRate = 1e-2; // "grid_learning_rate" of the features; as learning_rate where not given
+    double beta1 = 0.9;
+    double beta2 = 0.99;
+    double epsilon = 1e-8;
+    double l2 = 1e-6;           // "l2_reg", of the network's weights alone
+    double emaDecay = 0.0;      // Ema "decay": alpha in [0, 1); 0 = the weights themselves
+    uint32_t decayStart = 0;    // ExponentialDecay: the rate is multiplied by decayBase
+    uint32_t decayInterval = 0; // every decayInterval steps (0 = never)
+    uint32_t decayEnd = UINT32_MAX;
+    double decayBase = 1.0;
+    double clipNorm = 0.0;    // "clip_norm": largest norm of the gradient; 0 = no clip
+    double lossScale = 128.0; // "loss_scale", half precision only: keeps small gradients from vanishing
+};
+
+struct ModelConfig {
+    std::vector<EncodingConfig> encoding;
+    NetworkConfig network;
+    LossConfig loss;
+    OptimizerConfig optimizer;
+};
+
+// Throws Error: NotFound, or BadData naming the file and the key that is unknown, missing or out of range.
+ModelConfig loadModelConfig(const std::filesystem::path& file);
+ModelConfig parseModelConfig(const std::string& json, const std::string& name);
+
+// The same as JSON with every key, for files that record it; parseModelConfig gives it back.
+std::string toJson(const ModelConfig& config);
+
+// "FullyFusedMLP 64x5", for messages.
+std::string describe(const NetworkConfig& config);
+
+} // namespace irradia

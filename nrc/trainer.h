@@ -1,0 +1,78 @@
+// Learning: an Encoding and a Network with their parameters, a Loss and an Optimizer (tiny-cuda-nn's four
+// nouns).
+//
+// Bit-repeatable: the same records in the same order give the same weights on the same device and driver,
+// whatever the number of threads. Records that are not finite or beyond kRecordLimit are dropped and counted;
+// parameters that stop being finite are set to zero and counted; a step without records changes nothing.
+#pragma once
+
+#include "nrc/encoding.h"
+#include "nrc/network.h"
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+namespace irradia {
+
+struct TrainerOptions {
+    uint32_t batchRows = 1u << 14;  // records of a step at most; rounded up to gpu::kRowPadding
+    uint32_t inferRows = 1u << 14;  // rows of a prediction at most; likewise
+    uint64_t seed = 1;              // of the initial parameters and of the shuffling
+    std::vector<glm::vec3> touched; // for a SparseGrid
+};
+
+// Which parameters a prediction uses.
+enum class Weights { Ema, Raw };
+
+// Inputs: rows of ceil(inputs / 4) single-precision quads; targets: rows of ceil(outputs / 4).
+struct Records {
+    RowCount rows;
+    BufferRange inputs;
+    BufferRange targets;
+};
+
+// Counted since the start (or the load).
+struct TrainingCounts {
+    uint32_t steps = 0;             // that changed the parameters
+    uint32_t droppedRecords = 0;    // not finite, too large, or with a prediction that was not finite
+    uint32_t clippedSteps = 0;      // whose gradient was longer than clip_norm
+    uint32_t damagedParameters = 0; // weights, moments or averages found not finite, and set to zero
+    float loss = 0;                 // mean of the last step, 0 before the first
+};
+
+class Trainer {
+public:
+    Trainer(Device& device, const ModelConfig& config, uint32_t inputs, uint32_t outputs,
+            const TrainerOptions& options = {});
+    ~Trainer();
+
+    const ModelConfig& config() const; // form resolved
+    const Network& network() const;
+    const Encoding& encoding() const;
+    uint64_t parameterCount() const; // weights, then features
+
+    // One pass over the records in `steps` optimisation steps: record i belongs to exactly one step, chosen
+    // by a permutation that is new at each call. rows.capacity / steps must not exceed batchRows.
+    void train(FrameGraph& graph, const Records& records, uint32_t steps = 1);
+
+    // results: rows of ceil(outputs / 4) single-precision quads. rows.capacity is at most inferRows.
+    void infer(FrameGraph& graph, const RowCount& rows, BufferRange inputs, BufferRange results,
+               Weights weights = Weights::Ema);
+
+    TrainingCounts counts() const; // of executed graphs
+
+    // Weights, moments, averages, counters; versioned, checked, written whole or not at all. load() throws
+    // Error(BadData) naming the file and what differs where it holds another shape, and then changes nothing.
+    void save(const std::filesystem::path& file) const;
+    void load(const std::filesystem::path& file);
+
+    // Parameters as they are, for tests and tools: parameterCount() floats.
+    std::vector<float> parameters(Weights weights) const;
+    void setParameters(std::span<const float> values); // weights; the optimiser's state stays
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+} // namespace irradia

@@ -32,11 +32,13 @@ constexpr std::array kRooms{
     Room{"engine/image/", 1},
     Room{"engine/graph/", 2},
     Room{"engine/scene/", 2},
-    Room{"shaders/path/", 2}, // kernels
-    Room{"shaders/nrc/", 2},  // kernels
-    Room{"engine/path/", 3},  // meets the next only in the buffers of shaders/shared/cache.h
-    Room{"nrc/", 3},          // network, trainer, caches
-    Room{"nrc/renderer", 4},  // the frame
+    Room{"shaders/path/", 2},                // kernels
+    Room{"shaders/nrc/", 2},                 // kernels
+    Room{"engine/path/", 3},                 // meets the next only in the buffers of shaders/shared/cache.h
+    Room{"nrc/", 3},                         // network, trainer, caches
+    Room{"nrc/renderer", 4},                 // the frame
+    Room{"samples/yardsticks/textbook/", 2}, // kernels
+    Room{"samples/yardsticks/", 4},          // what the benchmarks compare with
     Room{"samples/irradia/", 5},
     Room{"samples/embed/", 5},
     Room{"samples/fit_image/", 5},
@@ -63,9 +65,11 @@ bool isGlsl(const fs::path& path) {
 // What an #include names, as a path from the project's root: the search paths of the build, which generates
 // kernels/FOLDER.h from that folder's kernels. Outside the project it stays as it is, in <>.
 std::string resolve(const fs::path& includer, const std::string& name) {
-    static const std::map<std::string, std::string> kGenerated{{"kernels/path.h", "shaders/path/"},
-                                                               {"kernels/nrc.h", "shaders/nrc/"},
-                                                               {"kernels/shaders.h", "tests/shaders/"}};
+    static const std::map<std::string, std::string> kGenerated{
+        {"kernels/path.h", "shaders/path/"},
+        {"kernels/nrc.h", "shaders/nrc/"},
+        {"kernels/shaders.h", "tests/shaders/"},
+        {"kernels/textbook.h", "samples/yardsticks/textbook/"}};
     if (const auto found = kGenerated.find(name); found != kGenerated.end()) return found->second;
     if (!isGlsl(includer) && roomOf(name)) return name;
     if (roomOf("shaders/" + name)) return "shaders/" + name;

@@ -1,6 +1,5 @@
-// Encodings of network inputs in double precision (grids of features: feature_grid.h): frequency (Mildenhall
-// et al. 2020, eq. 4), triangle wave and one-blob (Müller et al. 2019, 2021), real
-// spherical harmonics.
+// Encodings of network inputs in double precision: frequency (Mildenhall et al. 2020, eq. 4), triangle wave
+// and one-blob (Müller et al. 2019, 2021), real spherical harmonics. Grids of features: feature_grid.h.
 #pragma once
 
 #include "tests/reference/math.h"

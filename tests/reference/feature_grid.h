@@ -1,5 +1,5 @@
 // Multiresolution grids of trainable features in double precision: Müller et al. 2022, section 3 (hash
-// tables, concatenated levels); Hadadan et al. 2021 (voxels on surfaces, mean over levels).
+// tables, concatenated levels); Hadadan et al. 2021 (voxels that surfaces touch, mean over levels).
 #pragma once
 
 #include <cstddef>

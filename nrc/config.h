@@ -42,8 +42,8 @@ struct EncodingConfig {
     uint32_t levels = 8;           // grids: n_levels, 1 to 16
     uint32_t featuresPerLevel = 2; // grids: n_features_per_level: 1, 2, 4, 8 or 16
     uint32_t log2HashmapSize = 15; // HashGrid: log2_hashmap_size, entries a level at most, 4 to 24
-    uint32_t baseResolution = 16;  // grids: base_resolution
-    double perLevelScale = 2.0;    // grids: per_level_scale
+    uint32_t baseResolution = 16;  // grids: base_resolution, cells an edge, 1 to 65536
+    double perLevelScale = 2.0;    // grids: per_level_scale, 1 to 16; the finest level has at most 2^20 cells
     bool mean = false;             // grids: "aggregation": "Mean" over levels, or "Concatenation" (default)
 };
 

@@ -11,8 +11,8 @@
 
 namespace irradia {
 
-constexpr uint64_t kMaxJsonBytes = 1u << 20;
-constexpr int kMaxJsonDepth = 16; // a model needs 4
+constexpr uint64_t kMaxJsonBytes = 1u << 16; // a model needs 2,000; nlohmann takes quadratic time for lists
+constexpr int kMaxJsonDepth = 16;            // a model needs 4
 
 // A name of an enumeration's value.
 template <typename Enum>

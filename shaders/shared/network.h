@@ -41,5 +41,23 @@ struct EncodeParams {
     uint firstQuad;    // first that this encoding writes
 };
 
+// weight_gradient: rows are summed in kGradientChunks chunks of chunkRows rows, a multiple of kTileRows.
+SHARED_CONST uint kGradientChunks = 32u;
+struct WeightGradientParams {
+    uint counter;
+    uint chunkRows;
+    uint blocks;      // that tile all matrices
+    uint weightQuads; // of a chunk's partial sums
+};
+
+struct SumGradientsParams {
+    uint weightQuads;
+    uint scaleWord; // of the buffer that holds the factor
+};
+
+struct PackParams {
+    uint packedQuads;
+};
+
 SHARED_END
 #endif

@@ -1,30 +1,16 @@
 // What `bench mlp` compares with computes what it should: results, gradients and steps against plain loops in
 // double precision.
 #include "samples/yardsticks/cpu_peak.h"
+#include "samples/yardsticks/device_peak.h"
 #include "samples/yardsticks/mlp_yardstick.h"
 #include "tests/support/kernel_harness.h"
 #include <algorithm>
 #include <catch2/catch_test_macros.hpp>
 #include <cmath>
-#include <random>
 
 using namespace irradia;
 
 namespace {
-
-MlpProblem makeProblem(const MlpShape& shape, uint32_t rows) {
-    std::mt19937 random(5);
-    const auto fill = [&](std::vector<float>& values, size_t count, float low, float high) {
-        values.resize(count);
-        std::uniform_real_distribution<float> uniform(low, high);
-        std::ranges::generate(values, [&] { return uniform(random); });
-    };
-    MlpProblem problem{shape, rows};
-    fill(problem.inputs, size_t(rows) * shape.inputs, 0.0f, 1.0f);
-    fill(problem.targets, size_t(rows) * shape.outputs, 0.0f, 1.0f);
-    fill(problem.weights, shape.multiplyAdds(), -0.25f, 0.25f);
-    return problem;
-}
 
 struct Expected {
     std::vector<double> results;
@@ -119,7 +105,7 @@ void checkYardstick(MlpYardstick& yardstick, const MlpProblem& problem) {
 
 TEST_CASE("the textbook network is the plain loop's") {
     for (const MlpShape& shape : {MlpShape{64, 64, 5, 3}, MlpShape{32, 16, 1, 4}, MlpShape{16, 32, 2, 3}}) {
-        const MlpProblem problem = makeProblem(shape, 200);
+        const MlpProblem problem = makeMlpProblem(shape, 200);
         checkYardstick(*makeTextbookMlp(test::validatedDevice(), problem), problem);
     }
     CHECK(test::validatedDevice().validationMessages() == 0);
@@ -127,7 +113,7 @@ TEST_CASE("the textbook network is the plain loop's") {
 
 TEST_CASE("oneDNN's network is the plain loop's") {
     for (const MlpShape& shape : {MlpShape{64, 64, 5, 3}, MlpShape{32, 16, 1, 4}, MlpShape{16, 32, 2, 3}}) {
-        const MlpProblem problem = makeProblem(shape, 512);
+        const MlpProblem problem = makeMlpProblem(shape, 512);
         const auto yardstick = makeOnednnMlp(problem, 2);
         if (!yardstick) SKIP("built without oneDNN");
         checkYardstick(*yardstick, problem);
@@ -135,7 +121,7 @@ TEST_CASE("oneDNN's network is the plain loop's") {
 }
 
 TEST_CASE("oneDNN's batches are evaluated in parts") {
-    const MlpProblem problem = makeProblem({16, 16, 2, 3}, 16384);
+    const MlpProblem problem = makeMlpProblem({16, 16, 2, 3}, 16384);
     const auto yardstick = makeOnednnMlp(problem, 2);
     if (!yardstick) SKIP("built without oneDNN");
     yardstick->infer();
@@ -148,6 +134,7 @@ TEST_CASE("peaks of the machine are plausible") {
     CHECK(peak.gflops > 0.1);
     CHECK(peak.gflops < 2000); // a thread; a core does 64 flops a cycle at most today
     CHECK_FALSE(peak.form.empty());
+    CHECK(measureDevicePeak(test::validatedDevice(), 0.002) > 0.1);
     const double copied = measureCopyBandwidth(1);
     CHECK(copied > 0.1);
     CHECK(copied < 2000);

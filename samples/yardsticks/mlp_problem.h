@@ -1,9 +1,8 @@
-// What a multilayer perceptron of the yardsticks looks like: hidden layers of one width with ReLU, no bias, a
-// linear output layer, the mean squared error as loss.
+// What the networks of `bench mlp` are asked: a multilayer perceptron with hidden layers of one width with
+// ReLU, no bias, a linear output layer, and the mean squared error of a batch as loss.
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 namespace irradia {
@@ -37,6 +36,12 @@ struct MlpProblem {
     std::vector<float> targets; // rows x shape.outputs
     std::vector<float> weights; // shape.multiplyAdds()
 };
+
+// Uniform inputs, smooth targets of them, weights as Glorot and Bengio (2010); always the same.
+MlpProblem makeMlpProblem(const MlpShape& shape, uint32_t rows);
+
+// Its first rows, as many as there are.
+MlpProblem firstRows(const MlpProblem& problem, uint32_t rows);
 
 // Adam (Kingma and Ba 2015) as the yardsticks apply it.
 struct AdamConstants {

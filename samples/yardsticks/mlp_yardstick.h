@@ -1,7 +1,7 @@
 // A network that `bench mlp` compares the project's own with.
 #pragma once
 
-#include "samples/yardsticks/mlp_shape.h"
+#include "samples/yardsticks/mlp_problem.h"
 #include <memory>
 
 namespace irradia {

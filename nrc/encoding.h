@@ -8,7 +8,7 @@
 
 #include "engine/graph/frame_graph.h"
 #include "nrc/config.h"
-#include <array>
+#include <glm/glm.hpp>
 #include <memory>
 #include <span>
 

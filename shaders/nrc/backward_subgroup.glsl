@@ -4,7 +4,7 @@
 #include "nrc/mlp_shape.glsl"
 #include "nrc/activation.glsl"
 
-layout(constant_id = 8) const bool kInputGradient = false;
+layout(constant_id = 9) const bool kInputGradient = false;
 
 COUNTERS_READ(0, counters);
 QUADS_READ(1, packed);

@@ -13,51 +13,16 @@ RECORDS_WRITE(4, partials); // a chunk after the other, each laid out as the wei
 layout(push_constant) uniform Push { WeightGradientParams params; };
 
 const uint kOutputsTogether = 16u;
+const uint kQuadsTogether = kSubgroupSize;
 const uint kRowsTogether = kSubgroupSize < kTileRows ? kSubgroupSize : kTileRows;
 
-// A block of one matrix of the network.
-struct Block {
-    uint matrix; // first quad in the weights
-    uint inputQuads; // of the matrix
-    uint firstOutput;
-    uint quad; // this lane's inputs
-    uint gradientQuad; // of firstOutput in a row of layerGradients
-    uint gradientQuads; // that exist from there on
-    uint activationQuad; // of this lane in a row of activations (or of the encoded inputs, where isInput)
-    bool isInput;
-};
-
-uint blocksAcross(uint quads) { return (quads + kSubgroupSize - 1u) / kSubgroupSize; }
-
-Block blockAt(uint index) {
-    uint down = kWidthQuads * 4u / kOutputsTogether;
-    uint first = down * blocksAcross(kInputQuads), hidden = down * blocksAcross(kWidthQuads);
-    uint layer = index < first ? 0u : 1u + (index - first) / hidden;
-    uint within = layer == 0u ? index : (index - first) % hidden;
-
-    Block b;
-    b.isInput = layer == 0u;
-    b.inputQuads = b.isInput ? kInputQuads : kWidthQuads;
-    uint across = blocksAcross(b.inputQuads);
-    b.matrix = b.isInput ? kInputMatrix : kHiddenMatrices + (layer - 1u) * kHiddenMatrixQuads;
-    b.firstOutput = within / across * kOutputsTogether;
-    b.quad = within % across * kSubgroupSize + gl_SubgroupInvocationID;
-    b.gradientQuad = layer * kWidthQuads + b.firstOutput / 4u;
-    b.gradientQuads = layer == kHiddenLayers ? kOutputQuads : kOutputsTogether / 4u;
-    b.activationQuad = b.isInput ? b.quad : (layer - 1u) * kWidthQuads + b.quad;
-    return b;
-}
-
-vec4 activationOf(Block b, uint row) {
-    return b.isInput ? loadQuad(encoded, quadIndex(row, b.activationQuad, kInputQuads))
-                     : loadQuad(activations, quadIndex(row, b.activationQuad, kActivationQuads));
-}
+#include "nrc/weight_blocks.glsl"
 
 void main() {
     uint index = gl_WorkGroupID.x * gl_NumSubgroups + gl_SubgroupID;
     uint chunk = index / params.blocks;
     if (chunk >= kGradientChunks) return;
-    Block b = blockAt(index % params.blocks);
+    Block b = blockAt(index % params.blocks, gl_SubgroupInvocationID);
     uint row = chunk * params.chunkRows;
     uint end = min(row + params.chunkRows, counters[params.counter]);
 
@@ -76,7 +41,7 @@ void main() {
             [[unroll]] for (uint r = 0u; r < kRowsTogether; ++r)
                 sums[o] += subgroupBroadcast(gradients[o / 4u][o % 4u], r) * inputs[r];
     }
-    if (b.quad >= b.inputQuads) return;
+    if (b.quad >= b.matrixQuads) return;
     [[unroll]] for (uint o = 0u; o < kOutputsTogether; ++o)
-        storeRecord(partials, chunk * params.weightQuads + b.matrix + (b.firstOutput + o) * b.inputQuads + b.quad, floatBitsToUint(sums[o]));
+        storeRecord(partials, chunk * params.weightQuads + b.matrix + (b.firstOutput + o) * b.matrixQuads + b.quad, floatBitsToUint(sums[o]));
 }

@@ -1,0 +1,34 @@
+// Sizes of a network, in values and quads (shared/network.h).
+#pragma once
+
+#include "nrc/config.h"
+#include "shared/network.h"
+
+namespace irradia {
+
+struct NetworkShape {
+    uint32_t inputs = 0; // a multiple of gpu::kFeaturePadding
+    uint32_t width = 0;
+    uint32_t hiddenLayers = 0;
+    uint32_t outputs = 0;
+    uint32_t quadBytes = 16; // of a quad in the network's precision
+
+    uint32_t inputQuads() const { return inputs / 4; }
+    uint32_t widthQuads() const { return width / 4; }
+    uint32_t outputQuads() const { return (outputs + 3) / 4; }
+    uint32_t largestQuads() const { return inputQuads() > widthQuads() ? inputQuads() : widthQuads(); }
+    uint64_t hiddenWeights() const {
+        return uint64_t(inputs) * width + uint64_t(hiddenLayers - 1) * width * width;
+    }
+    uint64_t weights() const { return hiddenWeights() + uint64_t(width) * gpu::kFeaturePadding; }
+    uint64_t packedQuads() const {
+        return (weights() + hiddenWeights()) / 4 + uint64_t(width) * outputQuads();
+    }
+    uint32_t activationQuads() const { return hiddenLayers * widthQuads(); }
+    uint32_t gradientQuads() const { return activationQuads() + outputQuads(); }
+};
+
+// Throws Error(BadData) with the numbers that do not fit.
+NetworkShape checkedShape(const NetworkConfig& config, uint32_t inputs, uint32_t outputs);
+
+} // namespace irradia

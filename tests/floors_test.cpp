@@ -39,6 +39,7 @@ constexpr std::array kRooms{
     Room{"nrc/renderer", 4},                 // the frame
     Room{"samples/yardsticks/textbook/", 2}, // kernels
     Room{"samples/yardsticks/", 4},          // what the benchmarks compare with
+    Room{"samples/support/", 4},             // what the programs share
     Room{"samples/irradia/", 5},
     Room{"samples/embed/", 5},
     Room{"samples/fit_image/", 5},

@@ -8,6 +8,7 @@
 #include "engine/scene/load_scene.h"
 #include "kernels/path.h"
 #include "render_session.h"
+#include "samples/support/program.h"
 #include "shared/queue.h"
 #include "shared/trace.h"
 #include <algorithm>

@@ -1,9 +1,7 @@
-// The command line: names the subcommands, runs one, and turns whatever went wrong into a sentence and an
-// exit code.
+// The command line: names the subcommands and runs one.
 #include "commands.h"
 #include "engine/error.h"
-#include <cstdio>
-#include <new>
+#include "samples/support/program.h"
 
 namespace irradia {
 namespace {
@@ -26,37 +24,14 @@ void refuseUnknownCommand(const CLI::App& program, int argc, char** argv) {
         fail(ExitCode::Usage, "unknown subcommand {}, irradia --help lists them", argv[1]);
 }
 
-void run(CLI::App& program, int argc, char** argv) {
-    addCommands(program);
-    refuseUnknownCommand(program, argc, argv);
-    program.parse(argc, argv);
-    if (std::fflush(stdout) != 0) fail(ExitCode::Io, "stdout: cannot be written");
-}
-
-int report(const std::string& sentence, ExitCode code) {
-    std::fflush(stdout);
-    fmt::print(stderr, "irradia: {}\n", sentence);
-    return static_cast<int>(code);
-}
-
 } // namespace
 } // namespace irradia
 
 int main(int argc, char** argv) {
     using namespace irradia;
-    CLI::App program("A path tracer in Vulkan compute.", "irradia");
-    try {
-        run(program, argc, argv);
-        return static_cast<int>(ExitCode::Ok);
-    } catch (const CLI::Success& request) { // --help, --version
-        return program.exit(request);
-    } catch (const CLI::ParseError& error) {
-        return report(error.what(), ExitCode::Usage);
-    } catch (const Error& error) {
-        return report(error.what(), error.code());
-    } catch (const std::bad_alloc&) {
-        return report("out of memory", ExitCode::OutOfMemory);
-    } catch (const std::exception& error) {
-        return report(error.what(), ExitCode::Internal);
-    }
+    return runProgram("A path tracer in Vulkan compute.", "irradia", [&](CLI::App& program) {
+        addCommands(program);
+        refuseUnknownCommand(program, argc, argv);
+        program.parse(argc, argv);
+    });
 }

@@ -2,8 +2,8 @@
 #include "commands.h"
 #include "engine/error.h"
 #include "frame_stats.h"
-#include "progress.h"
 #include "render_session.h"
+#include "samples/support/progress.h"
 #include <chrono>
 
 namespace irradia {

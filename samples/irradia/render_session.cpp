@@ -1,6 +1,7 @@
 #include "render_session.h"
 
 #include "engine/error.h"
+#include "samples/support/program.h"
 #include <chrono>
 #include <cstdio>
 
@@ -62,16 +63,6 @@ void addRequestOptions(CLI::App& command, RenderRequest& request) {
     command.add_option("--records", request.records, "Form of the kernels: auto, texel or storage")
         ->check(CLI::IsMember({"auto", "texel", "storage"}))
         ->group("Device");
-}
-
-glm::uvec2 parseSize(const std::string& text) {
-    unsigned width = 0, height = 0;
-    int used = 0;
-    const bool read =
-        std::sscanf(text.c_str(), "%5ux%5u%n", &width, &height, &used) == 2 && size_t(used) == text.size();
-    if (!read || width < 1 || height < 1 || width > 16384 || height > 16384)
-        fail(ExitCode::Usage, "--size {}: not WxH with both from 1 to 16384", text);
-    return {width, height};
 }
 
 RenderSession::RenderSession(const RenderRequest& request)

@@ -27,9 +27,6 @@ struct RenderRequest {
 // Adds the options of a request, grouped by topic.
 void addRequestOptions(CLI::App& command, RenderRequest& request);
 
-// "WxH", each from 1 to 16384. Throws Error(Usage).
-glm::uvec2 parseSize(const std::string& text);
-
 // A scene on a device, ready to render. Says on stderr what was loaded, what was left out, and where it runs.
 class RenderSession {
 public:

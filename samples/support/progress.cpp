@@ -59,6 +59,14 @@ void ProgressMeter::update(double fraction) {
     if (std::chrono::duration<double>(Clock::now() - shown_).count() >= interval()) show();
 }
 
+void ProgressMeter::note(const std::string& name, double value) {
+    const auto found = std::ranges::find(notes_, name, &std::pair<std::string, double>::first);
+    if (found == notes_.end())
+        notes_.emplace_back(name, value);
+    else
+        found->second = value;
+}
+
 void ProgressMeter::finish() {
     show();
     if (lineOpen_) fmt::print(stderr, "\n");
@@ -93,17 +101,20 @@ std::string ProgressMeter::barText(double elapsed) const {
 
 std::string ProgressMeter::lineText(double elapsed) const {
     const std::string name = form_ == Form::Lines ? task_ + ": " : "";
-    return fmt::format("{}{:.0f} %, {} {}, {:.3g} {}/s, {} so far, {} left", name, 100 * fraction_, units_,
-                       unit_, rate(units_, elapsed), unit_, durationText(elapsed),
-                       durationText(secondsLeft(elapsed)));
+    std::string text = fmt::format("{}{:.0f} %, {} {}, {:.3g} {}/s, {} so far, {} left", name,
+                                   100 * fraction_, units_, unit_, rate(units_, elapsed), unit_,
+                                   durationText(elapsed), durationText(secondsLeft(elapsed)));
+    for (const auto& [noted, value] : notes_) text += fmt::format(", {} {:.4g}", noted, value);
+    return text;
 }
 
 std::string ProgressMeter::jsonText(double elapsed) const {
     // An infinite number becomes null.
-    return nlohmann::ordered_json{{"task", task_},        {"fraction", fraction_},
-                                  {unit_, units_},        {"rate", rate(units_, elapsed)},
-                                  {"elapsed_s", elapsed}, {"eta_s", secondsLeft(elapsed)}}
-        .dump();
+    nlohmann::ordered_json json{{"task", task_},        {"fraction", fraction_},
+                                {unit_, units_},        {"rate", rate(units_, elapsed)},
+                                {"elapsed_s", elapsed}, {"eta_s", secondsLeft(elapsed)}};
+    for (const auto& [noted, value] : notes_) json[noted] = value;
+    return json.dump();
 }
 
 double ProgressMeter::secondsLeft(double elapsed) const {

@@ -5,6 +5,8 @@
 #include <chrono>
 #include <cstdint>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace irradia {
 
@@ -17,7 +19,8 @@ public:
     ProgressMeter& operator=(const ProgressMeter&) = delete;
 
     void update(double fraction); // one unit more is done; fraction of the whole task in [0, 1]
-    void finish();                // the last state is always shown
+    void note(const std::string& name, double value); // shown from now on, "psnr 31.2"
+    void finish();                                    // the last state is always shown
 
 private:
     enum class Form { Bar, Lines, Json, None };
@@ -38,6 +41,7 @@ private:
     Clock::time_point shown_ = start_;
     uint64_t units_ = 0;
     double fraction_ = 0;
+    std::vector<std::pair<std::string, double>> notes_;
     bool lineOpen_ = false; // a bar stands on the terminal's line
 };
 

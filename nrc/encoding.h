@@ -23,9 +23,10 @@ struct RowCount {
 
 class Encoding {
 public:
-    // `inputs` values a row, from which the parts take theirs in order. `touched`: points of the unit cube (a
-    // point a row) whose voxels a SparseGrid stores; it is refused without any. Throws Error(BadData) where
-    // parts and inputs do not fit, Error(OutOfMemory) with the numbers where a level outgrows a binding.
+    // `inputs` values a row, from which the parts take theirs in order. Directions of spherical harmonics are
+    // unit vectors; positions of grids are moved into the unit cube. `touched`: points of that cube whose
+    // voxels a SparseGrid stores; it is refused without any. Throws Error(BadData) where parts and inputs do
+    // not fit, Error(OutOfMemory) with the numbers where a grid outgrows a binding.
     Encoding(Device& device, const std::vector<EncodingConfig>& parts, uint32_t inputs, Precision precision,
              std::span<const glm::vec3> touched = {});
     ~Encoding();
@@ -44,13 +45,17 @@ public:
     void encode(FrameGraph& graph, const RowCount& rows, BufferRange inputs, BufferRange features,
                 BufferRange encoded) const;
 
-    // Adds each row's gradient to the features it read. `encodedGradient`: rows of width() / 4 quads. `sums`:
-    // 64-bit fixed-point sums, two words (low, high) a feature, independent of the order of additions;
-    // `scale` is their unit's reciprocal. No-op without a grid. (kernel accumulate_grid_gradient)
+    // Adds each row's gradient to the sums of the features it read: no-op without a grid. `encodedGradient`:
+    // rows of width() / 4 quads of `precision`. `sums`: sumBytes() that are zero at first; 64-bit fixed-point
+    // sums in units of 2^-20, independent of the order of rows. So give it gradients of a row's own loss, not
+    // divided by the number of rows: below 2^-21 they vanish, and beyond +-2047 a contribution is cut.
+    uint64_t sumBytes() const; // 8 a feature
     void accumulateGradient(FrameGraph& graph, const RowCount& rows, BufferRange inputs,
                             BufferRange encodedGradient, BufferRange sums) const;
-    // gradients[i] = sums[i] / scale, and the sums are zero again.
-    void takeGradient(FrameGraph& graph, BufferRange sums, BufferRange gradients) const;
+    // gradients (featureCount() floats) = sums times the float at word `scaleWord` of `scale`, and the sums
+    // are zero again.
+    void takeGradient(FrameGraph& graph, BufferRange sums, BufferRange gradients, BufferRange scale,
+                      uint32_t scaleWord) const;
 
 private:
     struct State;

@@ -32,13 +32,29 @@ struct RowsParams {
     uint capacity; // rows that the buffers have room for, a multiple of kRowPadding
 };
 
-// encode_*: one encoding of a composite. Inputs are rows of single-precision quads.
-struct EncodeParams {
-    uint counter;
-    uint inputQuads;   // of a row
-    uint firstInput;   // first of the inputs that this encoding reads
-    uint encodedQuads; // of a row of the whole composite
-    uint firstQuad;    // first that this encoding writes
+// A level of a feature grid. A point p of the unit cube lies at p scale + 1/2 in cells, and corner (x, y, z) has entry
+// first + x + stride (y + stride z), or of a hashed level first + hash % size.
+SHARED_CONST uint kMaxGridLevels = 16u;
+struct GridLevel {
+    float scale;
+    uint stride; // 0 where hashed
+    uint first;  // of a sparse grid: in the table that says which entry a corner has
+    uint size;   // entries; a power of two where hashed
+};
+
+SHARED_CONST uint kGridDense = 0u;
+SHARED_CONST uint kGridHash = 1u;
+SHARED_CONST uint kGridSparse = 2u;
+SHARED_CONST uint kAbsentEntry = 0xffffffffu; // of a corner that a sparse grid does not store
+
+// Sums of gradients by features in fixed point, S = high 2^32 + low with a signed low word, so that the high one is seldom
+// touched: first the low words of all features, then the high ones. A contribution is cut to +-kLargestContribution.
+SHARED_CONST float kGradientUnits = 1048576.0f;    // in 1
+SHARED_CONST float kLargestContribution = 2047.0f; // keeps its units below 2^31
+
+struct TakeGradientParams {
+    uint featureQuads;
+    uint scaleWord; // of the buffer that holds the factor
 };
 
 // weight_gradient: rows are summed in kGradientChunks chunks of chunkRows rows, a multiple of kTileRows.

@@ -1,0 +1,155 @@
+#include "nrc/encoding.h"
+
+#include "engine/error.h"
+#include "kernels/nrc.h"
+#include "nrc/encoding_kernels.h"
+#include "nrc/random.h"
+
+namespace irradia {
+namespace {
+
+constexpr uint64_t kGridAlignment = 16; // features: whole entries of any grid
+constexpr float kInitialFeature = 1e-4f;
+
+struct Grid {
+    Buffer levels;
+    Buffer entries; // of a sparse grid
+    Kernel accumulate;
+};
+
+struct Slice {
+    Kernel encode;
+    std::unique_ptr<Grid> grid; // of a slice that is a grid
+    const char* name;           // of its pass
+};
+
+// Tables and the kernels of a grid whose features begin at `features`, which grows by them.
+Slice makeGridSlice(Device& device, const EncodingLayout& layout, const EncodingSlice& slice,
+                    const FeatureGrid& made, Precision precision) {
+    Slice result{makeEncodeGridKernel(device, layout, slice, made, precision), std::make_unique<Grid>(),
+                 kernels::encode_grid.name};
+    std::vector<gpu::GridLevel> levels = made.levels;
+    levels.resize(gpu::kMaxGridLevels);
+    result.grid->levels = makeBuffer(device, "grid levels", levels);
+    result.grid->entries = makeBuffer(device, "grid entries", made.entries);
+    return result;
+}
+
+const char* passName(EncodingType type) {
+    switch (type) {
+    case EncodingType::Identity:
+        return kernels::encode_identity.name;
+    case EncodingType::OneBlob:
+        return kernels::encode_one_blob.name;
+    case EncodingType::SphericalHarmonics:
+        return kernels::encode_spherical_harmonics.name;
+    default:
+        return kernels::encode_frequency.name;
+    }
+}
+
+} // namespace
+
+struct Encoding::State {
+    EncodingLayout layout;
+    uint64_t features = 0;
+    std::vector<Slice> slices;
+    Kernel take;
+};
+
+Encoding::Encoding(Device& device, const std::vector<EncodingConfig>& parts, uint32_t inputs,
+                   Precision precision, std::span<const glm::vec3> touched)
+    : state_(std::make_unique<State>()) {
+    State& s = *state_;
+    s.layout = layOut(parts, inputs);
+    std::vector<FeatureGrid> grids;
+    for (const EncodingSlice& slice : s.layout.slices) {
+        if (!isGrid(slice.config.type)) continue;
+        const uint64_t perEntry = slice.config.featuresPerLevel;
+        grids.push_back(makeFeatureGrid(slice.config, s.features / perEntry, device.limits(), touched));
+        s.features = (grids.back().end * perEntry + kGridAlignment - 1) / kGridAlignment * kGridAlignment;
+    }
+    auto grid = grids.begin();
+    for (const EncodingSlice& slice : s.layout.slices) {
+        if (!isGrid(slice.config.type)) {
+            s.slices.push_back(
+                {makeEncodeKernel(device, s.layout, slice, precision), nullptr, passName(slice.config.type)});
+            continue;
+        }
+        s.slices.push_back(makeGridSlice(device, s.layout, slice, *grid, precision));
+        s.slices.back().grid->accumulate =
+            makeAccumulateKernel(device, s.layout, slice, *grid, s.features, precision);
+        ++grid;
+    }
+    if (s.features > 0) s.take = Kernel(device, kernels::take_grid_gradient);
+}
+
+Encoding::~Encoding() = default;
+Encoding::Encoding(Encoding&&) noexcept = default;
+
+uint32_t Encoding::inputs() const {
+    return state_->layout.inputs;
+}
+uint32_t Encoding::inputQuads() const {
+    return state_->layout.inputQuads();
+}
+uint32_t Encoding::width() const {
+    return state_->layout.encodedQuads * 4;
+}
+uint64_t Encoding::featureCount() const {
+    return state_->features;
+}
+uint64_t Encoding::sumBytes() const {
+    return state_->features * 8;
+}
+
+void Encoding::initialise(std::span<float> features, uint64_t seed) const {
+    if (features.size() != featureCount())
+        fail(ExitCode::Internal, "encoding: {} features to initialise, not {}", features.size(),
+             featureCount());
+    RandomStream random(seed);
+    for (float& feature : features) feature = kInitialFeature * (2.0f * random.uniform() - 1.0f);
+}
+
+void Encoding::encode(FrameGraph& graph, const RowCount& rows, BufferRange inputs, BufferRange features,
+                      BufferRange encoded) const {
+    for (const Slice& slice : state_->slices) {
+        Pass pass = graph.pass(slice.encode, slice.name);
+        pass.read(rows.counters).read(inputs);
+        if (slice.grid)
+            pass.read(slice.grid->levels)
+                .read({*features.buffer, features.offset, featureCount() * 4})
+                .read(slice.grid->entries);
+        pass.write(encoded).push(gpu::RowsParams{rows.index, rows.capacity}).dispatch(rows.capacity);
+    }
+}
+
+void Encoding::accumulateGradient(FrameGraph& graph, const RowCount& rows, BufferRange inputs,
+                                  BufferRange encodedGradient, BufferRange sums) const {
+    for (const Slice& slice : state_->slices) {
+        if (!slice.grid) continue;
+        graph.pass(slice.grid->accumulate, kernels::accumulate_grid_gradient.name)
+            .read(rows.counters)
+            .read(inputs)
+            .read(slice.grid->levels)
+            .read(slice.grid->entries)
+            .read(encodedGradient)
+            .readWrite({*sums.buffer, sums.offset, sumBytes()})
+            .push(gpu::RowsParams{rows.index, rows.capacity})
+            .dispatch(rows.capacity);
+    }
+}
+
+void Encoding::takeGradient(FrameGraph& graph, BufferRange sums, BufferRange gradients, BufferRange scale,
+                            uint32_t scaleWord) const {
+    if (featureCount() == 0) return;
+    const auto quads = static_cast<uint32_t>(featureCount() / 4);
+    graph.pass(state_->take)
+        .readWrite({*sums.buffer, sums.offset, sumBytes()})
+        .read(scale)
+        .write({*gradients.buffer, gradients.offset, featureCount() * 4})
+        .push(gpu::TakeGradientParams{quads, scaleWord})
+        .dispatch(quads);
+}
+
+} // namespace irradia

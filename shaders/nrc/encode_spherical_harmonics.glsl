@@ -1,0 +1,16 @@
+// The kDegree^2 harmonics of bands below kDegree of a unit direction, given by its components in [-1, 1].
+#include "nrc/encode.glsl"
+#include "lib/encoding.glsl"
+
+layout(constant_id = 8) const uint kDegree = 4u;
+
+QUADS_WRITE(2, encoded);
+
+void main() {
+    uint row = gl_GlobalInvocationID.x;
+    if (row >= counters[params.counter]) return;
+    loadInputs(row);
+    float values[16];
+    sphericalHarmonics(vec3(x[0], x[1], x[2]), values);
+    storeValues(row, values, kDegree * kDegree);
+}

@@ -105,5 +105,7 @@ std::string toJson(const ModelConfig& config);
 
 // "FullyFusedMLP 64x5", for messages.
 std::string describe(const NetworkConfig& config);
+std::string describe(OutputActivation activation);
+std::string describe(const std::vector<EncodingConfig>& parts); // as one line of JSON
 
 } // namespace irradia

@@ -95,4 +95,12 @@ std::string describe(const NetworkConfig& config) {
     return fmt::format("FullyFusedMLP {}x{}", config.width, config.hiddenLayers);
 }
 
+std::string describe(OutputActivation activation) {
+    return std::string(nameOf(kOutputActivationNames, activation));
+}
+
+std::string describe(const std::vector<EncodingConfig>& parts) {
+    return encodingJson(parts).dump();
+}
+
 } // namespace irradia

@@ -70,6 +70,9 @@ public:
     std::vector<float> parameters(Weights weights) const;
     void setParameters(std::span<const float> values); // weights; the optimiser's state stays
 
+    // What must be equal for one trainer to load what another saved, in words.
+    std::string shapeName() const;
+
 private:
     struct State;
     std::unique_ptr<State> state_;

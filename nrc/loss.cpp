@@ -1,0 +1,49 @@
+#include "nrc/loss.h"
+
+#include "engine/error.h"
+#include "kernels/nrc.h"
+#include "shared/training.h"
+
+namespace irradia {
+
+Loss::Loss(Device& device, const LossConfig& config, uint32_t outputs, float lossScale)
+    : config_(config)
+    , outputs_(outputs)
+    , lossScale_(lossScale) {
+    if (config.type == LossType::RelativeL2Luminance && outputs != 3)
+        fail(ExitCode::BadData, "loss: RelativeL2Luminance needs the 3 outputs of a colour, not {}", outputs);
+    KernelOptions options;
+    options.constants = {{2, static_cast<uint32_t>(config.type)}, {3, outputs}};
+    loss_ = Kernel(device, kernels::loss, options);
+    endBatch_ = Kernel(device, kernels::end_batch);
+}
+
+void Loss::evaluate(FrameGraph& graph, uint32_t capacity, BufferRange state, BufferRange results,
+                    BufferRange targets, BufferRange usable, BufferRange resultGradient,
+                    BufferRange rowLoss) const {
+    const gpu::LossParams params{static_cast<float>(config_.epsilon),
+                                 static_cast<float>(config_.exponentStart),
+                                 static_cast<float>(config_.exponentEnd),
+                                 config_.annealStart,
+                                 config_.annealEnd,
+                                 lossScale_};
+    graph.pass(loss_)
+        .readWrite(state)
+        .read(results)
+        .read(targets)
+        .read(usable)
+        .write(resultGradient)
+        .write(rowLoss)
+        .push(params)
+        .dispatch(capacity);
+}
+
+void Loss::endBatch(FrameGraph& graph, BufferRange state, BufferRange rowLoss) const {
+    graph.pass(endBatch_)
+        .readWrite(state)
+        .read(rowLoss)
+        .push(gpu::EndBatchParams{outputs_, lossScale_})
+        .dispatchGroups(1);
+}
+
+} // namespace irradia

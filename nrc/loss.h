@@ -1,0 +1,31 @@
+// Losses of a batch: L2; relative L2 (Lehtinen 2018); relative by the luminance of the prediction (Müller
+// 2021, 4.3). Denominators are detached: no gradient passes through them.
+#pragma once
+
+#include "engine/graph/frame_graph.h"
+#include "nrc/config.h"
+
+namespace irradia {
+
+class Loss {
+public:
+    // Throws Error(BadData) where a loss by luminance is asked of other than 3 outputs.
+    Loss(Device& device, const LossConfig& config, uint32_t outputs, float lossScale);
+
+    // Of `capacity` rows at most; how many there are is in `state` (gpu::TrainingState), whose counts it
+    // advances. `usable`: a word a row, 0 where the record is to be left out. resultGradient: rows as
+    // `results`, times lossScale, before the mean; rowLoss: a float a row.
+    void evaluate(FrameGraph& graph, uint32_t capacity, BufferRange state, BufferRange results,
+                  BufferRange targets, BufferRange usable, BufferRange resultGradient,
+                  BufferRange rowLoss) const;
+    // The batch's mean loss and the factor of its gradients, into `state`.
+    void endBatch(FrameGraph& graph, BufferRange state, BufferRange rowLoss) const;
+
+private:
+    LossConfig config_;
+    uint32_t outputs_;
+    float lossScale_;
+    Kernel loss_, endBatch_;
+};
+
+} // namespace irradia

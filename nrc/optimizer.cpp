@@ -1,0 +1,88 @@
+#include "nrc/optimizer.h"
+
+#include "kernels/nrc.h"
+#include <algorithm>
+
+namespace irradia {
+namespace {
+
+constexpr size_t kMostGroups = 2; // weights and features
+
+Buffer floats(Device& device, const std::string& name, uint64_t count) {
+    return Buffer(device, name, std::max<uint64_t>(count, 4) * sizeof(float));
+}
+
+} // namespace
+
+ParameterGroup::ParameterGroup(Device& device, const std::string& name, uint64_t parameters, double rate,
+                               double weightDecay, bool isSparse)
+    : count(parameters)
+    , learningRate(static_cast<float>(rate))
+    , l2(static_cast<float>(weightDecay))
+    , sparse(isSparse)
+    , values(floats(device, name, parameters))
+    , gradients(floats(device, name + " gradients", parameters))
+    , firstMoments(floats(device, name + " first moments", parameters))
+    , secondMoments(floats(device, name + " second moments", parameters))
+    , averages(floats(device, name + " averages", parameters)) {}
+
+Optimizer::Optimizer(Device& device, const OptimizerConfig& config)
+    : config_(config)
+    , gradientNorm_(device, kernels::gradient_norm)
+    , beginUpdate_(device, kernels::begin_update)
+    , optimize_(device, kernels::optimize)
+    , partials_(device, "squared norm", kMostGroups * gpu::kNormPartials * sizeof(float)) {}
+
+gpu::TrainingState Optimizer::initialState() {
+    gpu::TrainingState state{};
+    state.learningRateFactor = 1;
+    state.clipScale = 1;
+    return state;
+}
+
+void Optimizer::measureNorm(FrameGraph& graph, std::span<const ParameterGroup* const> groups) const {
+    uint32_t first = 0;
+    for (const ParameterGroup* group : groups) {
+        const gpu::NormParams params{static_cast<uint32_t>(group->count / 4), first};
+        graph.pass(gradientNorm_)
+            .read(group->gradients)
+            .write(partials_)
+            .push(params)
+            .dispatchGroups(gpu::kNormPartials);
+        first += gpu::kNormPartials;
+    }
+}
+
+void Optimizer::step(FrameGraph& graph, BufferRange state,
+                     std::span<const ParameterGroup* const> groups) const {
+    const bool clips = config_.clipNorm > 0;
+    if (clips) measureNorm(graph, groups);
+    const auto beta1 = static_cast<float>(config_.beta1), beta2 = static_cast<float>(config_.beta2);
+    const auto emaDecay = static_cast<float>(config_.emaDecay);
+    const gpu::BeginUpdateParams begin{clips ? static_cast<uint32_t>(groups.size()) * gpu::kNormPartials : 0u,
+                                       static_cast<float>(config_.clipNorm),
+                                       beta1,
+                                       beta2,
+                                       emaDecay,
+                                       static_cast<float>(config_.decayBase),
+                                       config_.decayStart,
+                                       config_.decayInterval,
+                                       config_.decayEnd};
+    graph.pass(beginUpdate_).readWrite(state).read(partials_).push(begin).dispatchGroups(1);
+    for (const ParameterGroup* group : groups) {
+        const gpu::OptimizeParams params{
+            static_cast<uint32_t>(group->count / 4), group->learningRate, beta1,    beta2,
+            static_cast<float>(config_.epsilon),     group->l2,           emaDecay, group->sparse ? 1u : 0u};
+        graph.pass(optimize_)
+            .readWrite(state)
+            .read(group->gradients)
+            .readWrite(group->values)
+            .readWrite(group->firstMoments)
+            .readWrite(group->secondMoments)
+            .readWrite(group->averages)
+            .push(params)
+            .dispatch(params.quads);
+    }
+}
+
+} // namespace irradia

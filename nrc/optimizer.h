@@ -1,0 +1,48 @@
+// Adam (Kingma and Ba 2015) with weight decay, a decaying learning rate, a clip of the gradient's norm, and
+// the exponential moving average of the parameters that predictions use (Müller 2021, 4.4).
+#pragma once
+
+#include "engine/graph/frame_graph.h"
+#include "nrc/config.h"
+#include "shared/training.h"
+#include <array>
+#include <span>
+
+namespace irradia {
+
+// Parameters that are learned alike, with all that belongs to each; `count` floats a buffer, a multiple of 4.
+struct ParameterGroup {
+    ParameterGroup() = default;
+    ParameterGroup(Device& device, const std::string& name, uint64_t count, double learningRate, double l2,
+                   bool sparse);
+
+    // What a step depends on, and a saved model holds.
+    std::array<const Buffer*, 4> learned() const {
+        return {&values, &firstMoments, &secondMoments, &averages};
+    }
+
+    uint64_t count = 0;
+    float learningRate = 0;
+    float l2 = 0;
+    bool sparse = false; // a parameter whose gradient is exactly 0 keeps its value and moments
+    Buffer values, gradients, firstMoments, secondMoments, averages;
+};
+
+class Optimizer {
+public:
+    Optimizer(Device& device, const OptimizerConfig& config);
+
+    static gpu::TrainingState initialState();
+
+    // One step from the groups' gradients; whether it happens is in `state` (gpu::TrainingState).
+    void step(FrameGraph& graph, BufferRange state, std::span<const ParameterGroup* const> groups) const;
+
+private:
+    void measureNorm(FrameGraph& graph, std::span<const ParameterGroup* const> groups) const;
+
+    OptimizerConfig config_;
+    Kernel gradientNorm_, beginUpdate_, optimize_;
+    Buffer partials_; // of the squared norm
+};
+
+} // namespace irradia

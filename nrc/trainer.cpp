@@ -1,0 +1,278 @@
+#include "nrc/trainer.h"
+
+#include "engine/error.h"
+#include "kernels/nrc.h"
+#include "nrc/loss.h"
+#include "nrc/model_file.h"
+#include "nrc/optimizer.h"
+#include "shared/network.h"
+#include <algorithm>
+#include <fmt/format.h>
+#include <optional>
+
+namespace irradia {
+namespace {
+
+// Beyond these, values would leave the range of the encoded inputs' format, or squares that of single
+// precision.
+constexpr float kRecordLimit = 1e8f;
+constexpr float kRecordLimitHalf = 6e4f;
+
+static_assert(offsetof(gpu::TrainingState, batchRows) == 4 * gpu::kBatchRowsWord);
+static_assert(offsetof(gpu::TrainingState, gradientScale) == 4 * gpu::kGradientScaleWord);
+
+uint32_t padded(uint32_t rows) {
+    return (std::max(rows, 1u) + gpu::kRowPadding - 1) / gpu::kRowPadding * gpu::kRowPadding;
+}
+
+float lossScaleOf(const ModelConfig& config) {
+    return config.network.precision == Precision::Half ? static_cast<float>(config.optimizer.lossScale)
+                                                       : 1.0f;
+}
+
+// What the passes of one batch hand on; reused from batch to batch.
+struct BatchBuffers {
+    BatchBuffers(Device& device, const Encoding& encoding, const Network& network, uint32_t rows,
+                 uint32_t quadBytes)
+        : inputs(device, "batch inputs", uint64_t(rows) * encoding.inputQuads() * 16)
+        , targets(device, "batch targets", uint64_t(rows) * network.outputQuads() * 16)
+        , usable(device, "usable records", uint64_t(rows) * 4)
+        , encoded(device, "encoded inputs", uint64_t(rows) * encoding.width() / 4 * quadBytes)
+        , activations(device, "activations", network.activationBytes(rows))
+        , results(device, "results", uint64_t(rows) * network.outputQuads() * 16)
+        , resultGradient(device, "result gradient", uint64_t(rows) * network.outputQuads() * 16)
+        , rowLoss(device, "row losses", uint64_t(rows) * 4)
+        , layerGradients(device, "layer gradients", network.layerGradientBytes(rows))
+        , encodedGradient(device, "gradient by encoded inputs",
+                          encoding.featureCount() > 0 ? uint64_t(rows) * encoding.width() / 4 * quadBytes
+                                                      : 16)
+        , partials(device, "partial weight gradients", network.partialBytes())
+        , featureSums(device, "feature gradient sums", std::max<uint64_t>(encoding.featureCount(), 4) * 8) {}
+
+    Buffer inputs, targets, usable, encoded, activations, results, resultGradient, rowLoss, layerGradients,
+        encodedGradient, partials, featureSums;
+};
+
+} // namespace
+
+struct Trainer::State {
+    State(Device& d, const ModelConfig& c, uint32_t inputs, uint32_t outputs, const TrainerOptions& o)
+        : device(d)
+        , options(o)
+        , encoding(d, c.encoding, inputs, c.network.precision, o.touched)
+        , network(d, c.network, encoding.width(), outputs)
+        , loss(d, c.loss, outputs, lossScaleOf(c))
+        , optimizer(d, c.optimizer)
+        , weights(d, "weights", network.weightCount(), c.optimizer.learningRate, c.optimizer.l2, false)
+        , features(d, "features", encoding.featureCount(), c.optimizer.gridLearningRate, 0.0, true)
+        , batchRows(padded(o.batchRows))
+        , inferRows(padded(o.inferRows))
+        , quadBytes(c.network.precision == Precision::Half ? 8 : 16)
+        , batch(d, encoding, network, batchRows, quadBytes)
+        , state(makeBuffer(d, "training state", std::vector{Optimizer::initialState()}))
+        , packed(d, "packed weights", network.packedBytes())
+        , inferPacked(d, "packed weights of predictions", network.packedBytes())
+        , inferEncoded(d, "encoded queries", uint64_t(inferRows) * encoding.width() / 4 * quadBytes)
+        , beginBatch(d, kernels::begin_batch)
+        , gatherRecords(d, kernels::gather_records) {
+        config = c;
+        config.network = network.config();
+    }
+
+    std::vector<const ParameterGroup*> groups() const {
+        if (features.count == 0) return {&weights};
+        return {&weights, &features};
+    }
+
+    void initialise();
+    void gather(FrameGraph& graph, const Records& records, uint32_t index, uint32_t count);
+    void learn(FrameGraph& graph);
+    void packForTraining(FrameGraph& graph);
+    void packForInference(FrameGraph& graph, Weights which);
+
+    Device& device;
+    TrainerOptions options;
+    ModelConfig config;
+    Encoding encoding;
+    Network network;
+    Loss loss;
+    Optimizer optimizer;
+    ParameterGroup weights, features;
+    uint32_t batchRows, inferRows, quadBytes;
+    BatchBuffers batch;
+    Buffer state; // gpu::TrainingState
+    Buffer packed, inferPacked, inferEncoded;
+    Kernel beginBatch, gatherRecords;
+    bool packedIsCurrent = false;
+    std::optional<Weights> inferPackedHolds;
+};
+
+// Averages of no step yet: the first one replaces them.
+void Trainer::State::initialise() {
+    std::vector<float> values(network.weightCount());
+    network.initialise(values, options.seed);
+    upload<float>(device, weights.values, values);
+    upload<float>(device, weights.averages, values);
+    if (features.count == 0) return;
+    values.resize(features.count);
+    encoding.initialise(values, options.seed + 1);
+    upload<float>(device, features.values, values);
+    upload<float>(device, features.averages, values);
+}
+
+void Trainer::State::packForInference(FrameGraph& graph, Weights which) {
+    if (inferPackedHolds == which) return;
+    network.pack(graph, which == Weights::Ema ? weights.averages : weights.values, inferPacked);
+    inferPackedHolds = which;
+}
+
+void Trainer::State::packForTraining(FrameGraph& graph) {
+    if (!packedIsCurrent) network.pack(graph, weights.values, packed);
+    packedIsCurrent = true;
+}
+
+void Trainer::State::gather(FrameGraph& graph, const Records& records, uint32_t index, uint32_t count) {
+    const gpu::BeginBatchParams begin{records.rows.index, records.rows.capacity, index, count,
+                                      static_cast<uint32_t>(options.seed ^ (options.seed >> 32))};
+    graph.pass(beginBatch).readWrite(state).read(records.rows.counters).push(begin).dispatchGroups(1);
+    const gpu::GatherParams params{encoding.inputQuads(), network.outputQuads(),
+                                   config.network.precision == Precision::Half ? kRecordLimitHalf
+                                                                               : kRecordLimit};
+    graph.pass(gatherRecords)
+        .readWrite(state)
+        .read(records.inputs)
+        .read(records.targets)
+        .write(batch.inputs)
+        .write(batch.targets)
+        .write(batch.usable)
+        .push(params)
+        .dispatch(batchRows);
+}
+
+void Trainer::State::learn(FrameGraph& graph) {
+    const RowCount rows{state, gpu::kBatchRowsWord, batchRows};
+    encoding.encode(graph, rows, batch.inputs, features.values, batch.encoded);
+    network.forward(graph, rows, batch.encoded, packed, batch.activations, batch.results);
+    loss.evaluate(graph, batchRows, state, batch.results, batch.targets, batch.usable, batch.resultGradient,
+                  batch.rowLoss);
+    loss.endBatch(graph, state, batch.rowLoss);
+    const BufferRange encodedGradient(batch.encodedGradient);
+    network.backward(graph, rows, packed, batch.activations, batch.results, batch.resultGradient,
+                     batch.layerGradients, features.count > 0 ? &encodedGradient : nullptr);
+    network.weightGradient(graph, rows, batch.encoded, batch.activations, batch.layerGradients,
+                           batch.partials, weights.gradients, state, gpu::kGradientScaleWord);
+    if (features.count > 0) {
+        encoding.accumulateGradient(graph, rows, batch.inputs, batch.encodedGradient, batch.featureSums);
+        encoding.takeGradient(graph, batch.featureSums, features.gradients, state, gpu::kGradientScaleWord);
+    }
+    optimizer.step(graph, state, groups());
+    packedIsCurrent = false;
+    inferPackedHolds.reset();
+}
+
+Trainer::Trainer(Device& device, const ModelConfig& config, uint32_t inputs, uint32_t outputs,
+                 const TrainerOptions& options)
+    : state_(std::make_unique<State>(device, config, inputs, outputs, options)) {
+    state_->initialise();
+}
+
+Trainer::~Trainer() = default;
+
+const ModelConfig& Trainer::config() const {
+    return state_->config;
+}
+const Network& Trainer::network() const {
+    return state_->network;
+}
+const Encoding& Trainer::encoding() const {
+    return state_->encoding;
+}
+uint64_t Trainer::parameterCount() const {
+    return state_->weights.count + state_->features.count;
+}
+
+void Trainer::train(FrameGraph& graph, const Records& records, uint32_t steps) {
+    if (steps == 0 || uint64_t(records.rows.capacity) > uint64_t(steps) * state_->batchRows)
+        fail(ExitCode::Internal, "trainer: {} records in {} steps of at most {}", records.rows.capacity,
+             steps, state_->batchRows);
+    for (uint32_t step = 0; step < steps; ++step) {
+        state_->packForTraining(graph);
+        state_->gather(graph, records, step, steps);
+        state_->learn(graph);
+        graph.cut();
+    }
+}
+
+void Trainer::infer(FrameGraph& graph, const RowCount& rows, BufferRange inputs, BufferRange results,
+                    Weights weights) {
+    if (rows.capacity > state_->inferRows)
+        fail(ExitCode::Internal, "trainer: {} rows to predict, at most {} were planned", rows.capacity,
+             state_->inferRows);
+    state_->packForInference(graph, weights);
+    const ParameterGroup& features = state_->features;
+    state_->encoding.encode(graph, rows, inputs,
+                            weights == Weights::Ema ? features.averages : features.values,
+                            state_->inferEncoded);
+    state_->network.infer(graph, rows, state_->inferEncoded, state_->inferPacked, results);
+}
+
+std::string Trainer::shapeName() const {
+    const ModelConfig& model = state_->config;
+    return fmt::format("{} with {} inputs, {} outputs, output activation {}, encoding {}",
+                       describe(model.network), state_->encoding.inputs(), state_->network.outputs(),
+                       describe(model.network.outputActivation), describe(model.encoding));
+}
+
+TrainingCounts Trainer::counts() const {
+    const auto state = download<gpu::TrainingState>(state_->device, state_->state, 1).front();
+    return {state.steps, state.droppedRecords, state.clippedSteps, state.damagedParameters, state.loss};
+}
+
+std::vector<float> Trainer::parameters(Weights which) const {
+    std::vector<float> all;
+    for (const ParameterGroup* group : state_->groups()) {
+        const Buffer& from = which == Weights::Ema ? group->averages : group->values;
+        const auto values = download<float>(state_->device, from, group->count);
+        all.insert(all.end(), values.begin(), values.end());
+    }
+    return all;
+}
+
+void Trainer::save(const std::filesystem::path& file) const {
+    std::vector<float> content;
+    for (const ParameterGroup* group : state_->groups())
+        for (const Buffer* buffer : group->learned()) {
+            const auto values = download<float>(state_->device, *buffer, group->count);
+            content.insert(content.end(), values.begin(), values.end());
+        }
+    const auto state = download<gpu::TrainingState>(state_->device, state_->state, 1).front();
+    writeModel(file, {shapeName(), toJson(state_->config), state, std::move(content)});
+}
+
+void Trainer::load(const std::filesystem::path& file) {
+    uint64_t count = 0;
+    for (const ParameterGroup* group : state_->groups()) count += group->learned().size() * group->count;
+    const ModelFile model = readModel(file, shapeName(), count);
+    std::span<const float> rest = model.content;
+    for (const ParameterGroup* group : state_->groups())
+        for (const Buffer* buffer : group->learned()) {
+            upload<float>(state_->device, *buffer, rest.first(group->count));
+            rest = rest.subspan(group->count);
+        }
+    upload<gpu::TrainingState>(state_->device, state_->state, std::span(&model.state, 1));
+    state_->packedIsCurrent = false;
+    state_->inferPackedHolds.reset();
+}
+
+void Trainer::setParameters(std::span<const float> values) {
+    if (values.size() != parameterCount())
+        fail(ExitCode::Internal, "trainer: {} parameters to set, not {}", values.size(), parameterCount());
+    for (const ParameterGroup* group : state_->groups()) {
+        upload<float>(state_->device, group->values, values.first(group->count));
+        values = values.subspan(group->count);
+    }
+    state_->packedIsCurrent = false;
+    state_->inferPackedHolds.reset();
+}
+
+} // namespace irradia

@@ -1,0 +1,61 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Loss of every row, and its gradient by the results, before the mean over the batch is taken: (p - t)^2 / d^e with the
+// denominator d = p^2 + epsilon detached (Lehtinen 2018), or with p's luminance for all channels (Müller 2021, 4.3).
+#include "lib/kernel.glsl"
+#include "lib/math.glsl"
+#include "nrc/state.glsl"
+#include "shared/network.h"
+
+layout(constant_id = 2) const uint kLoss = kLossL2;
+layout(constant_id = 3) const uint kOutputs = 3u;
+const uint kQuads = (kOutputs + 3u) / 4u;
+
+STATE(0);
+RECORDS_READ(1, results);
+RECORDS_READ(2, targets);
+WORDS_READ(3, usable);
+RECORDS_WRITE(4, resultGradient);
+WORDS_WRITE(5, rowLoss);
+layout(push_constant) uniform Push { LossParams params; };
+
+// From exponentStart to exponentEnd over the steps [annealStart, annealEnd].
+float exponent() {
+    float length = max(float(params.annealEnd) - float(params.annealStart), 1.0);
+    float done = params.annealEnd > params.annealStart
+                     ? clamp((float(state.steps) - float(params.annealStart)) / length, 0.0, 1.0)
+                     : (state.steps >= params.annealEnd ? 1.0 : 0.0);
+    return mix(params.exponentStart, params.exponentEnd, done);
+}
+
+vec4 denominator(vec4 prediction) {
+    if (kLoss == kLossL2) return vec4(1.0);
+    vec4 squared = kLoss == kLossRelativeL2 ? prediction * prediction : vec4(square(luminance(prediction.xyz)));
+    float e = exponent();
+    vec4 d = squared + params.epsilon;
+    return e == 1.0 ? d : exp2(e * log2(d));
+}
+
+void main() {
+    uint row = gl_GlobalInvocationID.x;
+    if (row >= state.batchRows) return;
+    vec4 gradient[kQuads];
+    float loss = 0.0;
+    bool finite = true;
+    [[unroll]] for (uint q = 0u; q < kQuads; ++q) {
+        vec4 exists = vec4(lessThan(uvec4(q * 4u) + uvec4(0u, 1u, 2u, 3u), uvec4(kOutputs)));
+        vec4 prediction = uintBitsToFloat(loadRecord(results, quadIndex(row, q, kQuads)));
+        vec4 difference = exists * (prediction - uintBitsToFloat(loadRecord(targets, quadIndex(row, q, kQuads))));
+        vec4 d = denominator(prediction);
+        gradient[q] = 2.0 * difference / d;
+        loss += dot(difference, difference / d);
+        finite = finite && isWithin(gradient[q], kGradientLimit);
+    }
+    bool usableRow = loadWord(usable, row) != 0u;
+    bool use = usableRow && finite && loss <= kGradientLimit;
+    [[unroll]] for (uint q = 0u; q < kQuads; ++q)
+        storeRecord(resultGradient, quadIndex(row, q, kQuads), floatBitsToUint(use ? params.lossScale * gradient[q] : vec4(0.0)));
+    storeWord(rowLoss, row, floatBitsToUint(use ? loss : 0.0));
+    if (use) atomicAdd(state.validRecords, 1u);
+    if (usableRow && !use) atomicAdd(state.droppedRecords, 1u);
+}

@@ -1,0 +1,7 @@
+// The training's state as kernels see it. STATE(binding) or STATE_READ(binding), then state.member.
+#include "shared/training.h"
+
+#define STATE(slot) layout(set = 0, binding = slot, std430) buffer StateBlock { TrainingState state; }
+#define STATE_READ(slot) layout(set = 0, binding = slot, std430) readonly buffer StateBlock { TrainingState state; }
+
+bool isWithin(vec4 v, float limit) { return all(lessThanEqual(abs(v), vec4(limit))); } // false for NaN

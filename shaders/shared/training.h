@@ -1,0 +1,103 @@
+// State and parameters of training: what decides a step lives on the device, so that a batch whose size the device found
+// needs no word from the host.
+#ifndef IRRADIA_SHARED_TRAINING_H
+#define IRRADIA_SHARED_TRAINING_H
+#include "shared/types.h"
+SHARED_BEGIN
+
+struct TrainingState {
+    // Since the start.
+    uint steps;             // that changed the parameters
+    uint droppedRecords;    // not finite, too large, or with a prediction that was not finite
+    uint clippedSteps;      // whose gradient was longer than the clip
+    uint damagedParameters; // found not finite or beyond kParameterLimit, and set to zero
+    float learningRateFactor; // of the decay schedule
+    float eta1;               // 1 - beta1^steps
+    float eta2;               // 1 - beta2^steps
+    float etaEma;             // 1 - alpha^steps
+    // Of the current pass over the records, and of its current batch.
+    uint records;
+    uint permutationKey;
+    uint batchFirst; // position in the permutation
+    uint batchRows;
+    uint validRecords;
+    uint applied;         // 1 where the batch changes the parameters
+    float etaEmaBefore;   // etaEma of the step before
+    float gradientScale;  // 1 / (valid records * outputs * loss scale)
+    float clipScale;      // at most 1
+    float loss;           // mean over valid records and outputs
+    uint unused0;
+    uint unused1;
+};
+// Words of it that generic kernels are pointed to.
+SHARED_CONST uint kBatchRowsWord = 11u;
+SHARED_CONST uint kGradientScaleWord = 15u;
+
+// A value beyond its limit counts as not finite.
+SHARED_CONST float kParameterLimit = 1e6f;
+SHARED_CONST float kGradientLimit = 1e15f; // its square, summed over all parameters, stays finite
+SHARED_CONST float kMomentLimit = 1e30f;
+
+struct BeginBatchParams {
+    uint counter; // word of the records' counters
+    uint capacity;
+    uint batch; // of `batches`
+    uint batches;
+    uint seed;
+};
+
+struct GatherParams {
+    uint inputQuads;
+    uint targetQuads;
+    float limit; // of a record's values
+};
+
+// loss: kinds as constant 2 of loss.comp
+SHARED_CONST uint kLossL2 = 0u;
+SHARED_CONST uint kLossRelativeL2 = 1u;
+SHARED_CONST uint kLossRelativeL2Luminance = 2u;
+struct LossParams {
+    float epsilon;
+    float exponentStart;
+    float exponentEnd;
+    uint annealStart;
+    uint annealEnd;
+    float lossScale;
+};
+
+struct EndBatchParams {
+    uint outputs;
+    float lossScale;
+};
+
+SHARED_CONST uint kNormPartials = 64u; // workgroups of gradient_norm for each group of parameters
+struct NormParams {
+    uint quads;
+    uint firstPartial;
+};
+
+struct BeginUpdateParams {
+    uint partials; // of the squared norm; 0 = no clip
+    float clipNorm;
+    float beta1;
+    float beta2;
+    float emaDecay;
+    float decayBase;
+    uint decayStart;
+    uint decayInterval; // 0 = never
+    uint decayEnd;
+};
+
+struct OptimizeParams {
+    uint quads;
+    float learningRate;
+    float beta1;
+    float beta2;
+    float epsilon;
+    float l2;
+    float emaDecay;
+    uint sparse; // 1: a parameter whose gradient is exactly 0 keeps its value and moments
+};
+
+SHARED_END
+#endif

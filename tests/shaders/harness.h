@@ -31,6 +31,11 @@ struct RngHarnessParams {
     uint count;
 };
 
+struct PermuteParams {
+    uint count;
+    uint key;
+};
+
 // Follows the BounceParams that the functions of shaders/path expect.
 struct LightHarnessParams {
     vec4 origin;  // xyz: the shaded point; w unused

@@ -42,6 +42,7 @@ constexpr std::array kRooms{
     Room{"samples/support/", 4},             // what the programs share
     Room{"samples/irradia/", 5},
     Room{"samples/embed/", 5},
+    Room{"samples/fit_image/pixels/", 2}, // kernels
     Room{"samples/fit_image/", 5},
     Room{"samples/scenes/", 5},
     Room{"tests/", 5},
@@ -70,7 +71,8 @@ std::string resolve(const fs::path& includer, const std::string& name) {
         {"kernels/path.h", "shaders/path/"},
         {"kernels/nrc.h", "shaders/nrc/"},
         {"kernels/shaders.h", "tests/shaders/"},
-        {"kernels/textbook.h", "samples/yardsticks/textbook/"}};
+        {"kernels/textbook.h", "samples/yardsticks/textbook/"},
+        {"kernels/pixels.h", "samples/fit_image/pixels/"}};
     if (const auto found = kGenerated.find(name); found != kGenerated.end()) return found->second;
     if (!isGlsl(includer) && roomOf(name)) return name;
     if (roomOf("shaders/" + name)) return "shaders/" + name;

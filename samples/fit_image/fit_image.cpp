@@ -1,0 +1,182 @@
+#include "samples/fit_image/fit_image.h"
+
+#include "default_network.h"
+#include "engine/error.h"
+#include "engine/image/image.h"
+#include "samples/fit_image/image_learner.h"
+#include "samples/fit_image/learning_curve.h"
+#include "samples/support/progress.h"
+#include <bit>
+#include <chrono>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace irradia {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+uint32_t log2Batch(uint32_t batch) {
+    if (!std::has_single_bit(batch) || batch < 1u << 8 || batch > 1u << 18)
+        fail(ExitCode::Usage, "--batch {}: not a power of two from 256 to 262144", batch);
+    return static_cast<uint32_t>(std::countr_zero(batch));
+}
+
+ModelConfig chooseNetwork(const FitOptions& options) {
+    return options.network.empty() ? parseModelConfig(kDefaultNetwork, "hash_grid.json")
+                                   : loadModelConfig(options.network);
+}
+
+void requireFiles(const FitOptions& options) {
+    for (const std::string& file :
+         {options.output, options.png, options.csv, options.chart, options.save, options.json})
+        if (!file.empty() && file != "-") requireWritable(file);
+}
+
+// The steps after which the picture is measured: about ten in each doubling, so that a logarithm sees them
+// evenly.
+uint32_t nextMeasurement(uint32_t step) {
+    return std::max(step + 1, static_cast<uint32_t>(std::lround(step * 1.1)));
+}
+
+struct Result {
+    LearningCurve curve;
+    std::vector<glm::vec3> picture;
+    double psnr = 0; // of the whole picture
+};
+
+// Learns until the steps or the seconds are over. Only learning counts as time.
+LearningCurve learn(ImageLearner& learner, const FitOptions& options) {
+    LearningCurve curve{"", {}};
+    ProgressMeter progress("fit", options.progress, "steps");
+    double seconds = 0;
+    uint32_t step = 0;
+    for (bool isLast = false; !isLast;) {
+        const auto start = Clock::now();
+        learner.step();
+        seconds += secondsSince(start);
+        ++step;
+        const double fraction =
+            options.seconds > 0 ? seconds / options.seconds : double(step) / options.steps;
+        isLast = fraction >= 1;
+        if (isLast || curve.points.empty() || step >= nextMeasurement(curve.points.back().step)) {
+            curve.points.push_back({step, seconds, learner.trainer().counts().loss, learner.measure()});
+            progress.note("loss", curve.points.back().loss);
+            progress.note("psnr", curve.points.back().psnr);
+        }
+        progress.update(fraction);
+    }
+    progress.finish();
+    return curve;
+}
+
+Result run(ImageLearner& learner, const Picture& picture, const FitOptions& options) {
+    const auto start = Clock::now();
+    learner.warmUp();
+    fmt::print(stderr, "kernels ready after {:.1f} s\n", secondsSince(start));
+    Result result{learn(learner, options), learner.predict(), 0};
+    result.curve.name =
+        options.network.empty() ? "hash_grid" : std::filesystem::path(options.network).stem().string();
+    DisplayError error;
+    for (size_t i = 0; i < result.picture.size(); ++i) error.add(result.picture[i], picture.colour(i));
+    result.psnr = error.psnr();
+    const CurvePoint& last = result.curve.points.back();
+    fmt::print(stderr,
+               "{:.2f} dB over all {} pixels after {} steps, {:.1f} s of learning, {:.2f} ms a step\n",
+               result.psnr, result.picture.size(), last.step, last.seconds, 1e3 * last.seconds / last.step);
+    return result;
+}
+
+nlohmann::ordered_json numbers(const Result& result, const Picture& picture, ImageLearner& learner,
+                               const Device& device, const FitOptions& options) {
+    const CurvePoint& last = result.curve.points.back();
+    const TrainingCounts counts = learner.trainer().counts();
+    return {{"device", device.description().name},
+            {"driver", device.description().driver},
+            {"picture", options.picture},
+            {"width", picture.width},
+            {"height", picture.height},
+            {"network", nlohmann::ordered_json::parse(toJson(learner.trainer().config()))},
+            {"parameters", learner.trainer().parameterCount()},
+            {"batch", options.batch},
+            {"seed", options.seed},
+            {"steps", last.step},
+            {"seconds", last.seconds},
+            {"milliseconds_per_step", 1e3 * last.seconds / last.step},
+            {"loss", last.loss},
+            {"psnr", result.psnr},
+            {"dropped_records", counts.droppedRecords},
+            {"damaged_parameters", counts.damagedParameters},
+            {"memory_bytes", device.memoryUsed()}};
+}
+
+void writeText(const std::string& file, const std::string& text) {
+    if (file == "-")
+        fmt::print("{}", text);
+    else
+        writeFileAtomically(file, std::span(reinterpret_cast<const uint8_t*>(text.data()), text.size()));
+}
+
+// The learned picture with everything that decides it.
+void writeLearned(const Result& result, const Picture& picture, ImageLearner& learner, const Device& device,
+                  const FitOptions& options) {
+    LayeredImage image;
+    image.width = static_cast<int>(picture.width);
+    image.height = static_cast<int>(picture.height);
+    image.setRgb("", result.picture);
+    auto& a = image.attributes;
+    a["irradia.version"] = IRRADIA_VERSION;
+    a["irradia.device"] = device.description().name;
+    a["irradia.driver"] = device.description().driver;
+    a["irradia.network"] = toJson(learner.trainer().config());
+    a["irradia.seed"] = std::to_string(options.seed);
+    a["irradia.options"] =
+        fmt::format("--steps {} --batch {}", result.curve.points.back().step, options.batch);
+    writeExr(options.output, image);
+}
+
+void writeChart(const Result& result, const Picture& picture, ImageLearner& learner, const Device& device,
+                const FitOptions& options) {
+    std::vector<LearningCurve> curves{result.curve};
+    for (const std::string& file : options.against) curves.push_back(readCsv(file));
+    const std::string name = std::filesystem::path(options.picture).filename().string();
+    writeText(options.chart,
+              toChart(curves, fmt::format("{} as learned by {}", name, result.curve.name),
+                      fmt::format("{} x {} pixels, batches of {}, {}, on {}", picture.width, picture.height,
+                                  options.batch, describe(learner.trainer().network().config()),
+                                  device.description().name)));
+}
+
+} // namespace
+
+void fitImage(const FitOptions& options) {
+    const LearnerOptions learnerOptions{log2Batch(options.batch), options.seed};
+    requireFiles(options);
+    const ModelConfig config = chooseNetwork(options);
+    const Picture picture = loadPicture(options.picture);
+    Device device(options.device);
+    fmt::print(stderr, "picture {}: {} x {}; device {} ({})\n", options.picture, picture.width,
+               picture.height, device.description().name, device.description().driver);
+    ImageLearner learner(device, picture, config, learnerOptions);
+    fmt::print(stderr, "network {}, {} parameters\n", describe(learner.trainer().network().config()),
+               learner.trainer().parameterCount());
+
+    const Result result = run(learner, picture, options);
+    writeLearned(result, picture, learner, device, options);
+    if (!options.png.empty())
+        writePng(options.png, toDisplay(static_cast<int>(picture.width), static_cast<int>(picture.height),
+                                        result.picture));
+    if (!options.csv.empty()) writeText(options.csv, toCsv(result.curve));
+    if (!options.chart.empty()) writeChart(result, picture, learner, device, options);
+    if (!options.save.empty()) learner.trainer().save(options.save);
+    if (!options.json.empty())
+        writeText(options.json, numbers(result, picture, learner, device, options).dump(2) + "\n");
+    if (device.validationMessages() > 0)
+        fail(ExitCode::Internal, "{} validation messages", device.validationMessages());
+}
+
+} // namespace irradia

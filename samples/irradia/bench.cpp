@@ -8,6 +8,7 @@ void addBench(CLI::App& program) {
     bench->require_subcommand(1);
     addBenchFrame(*bench);
     addBenchRays(*bench);
+    addBenchMlp(*bench);
 }
 
 } // namespace irradia

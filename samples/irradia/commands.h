@@ -12,6 +12,7 @@ void addDevices(CLI::App& program);
 void addBench(CLI::App& program);
 void addBenchFrame(CLI::App& bench);
 void addBenchRays(CLI::App& bench);
+void addBenchMlp(CLI::App& bench);
 void addLaterCommands(CLI::App& program); // those this version names but does not have
 
 } // namespace irradia

@@ -1,0 +1,190 @@
+// irradia bench mlp: the fused networks against the machine's peak, textbook kernels and oneDNN, in
+// interleaved rounds.
+#include "bench_mlp_report.h"
+#include "bench_tools.h"
+#include "commands.h"
+#include "engine/error.h"
+#include "samples/yardsticks/cpu_peak.h"
+#include <charconv>
+#include <nlohmann/json.hpp>
+
+namespace irradia {
+namespace {
+
+struct BenchMlpOptions {
+    std::vector<std::string> shapes;
+    uint32_t inputs = 0;
+    std::string form = "both";
+    std::string precision = "both";
+    std::string mode = "both";
+    uint32_t rowsPerLane = 0;
+    uint32_t rows = 1u << 16;
+    uint32_t trainRows = 1u << 14;
+    uint32_t rounds = 9;
+    bool isQuick = false;
+    bool withPasses = false;
+    bool compileTimes = false;
+    std::string json;
+    DeviceOptions device;
+    std::string records = "auto";
+};
+
+constexpr uint32_t kQuickRounds = 3;
+constexpr uint32_t kOutputs = 3;
+
+uint32_t parseCount(const std::string& shape, std::string_view text, uint32_t most) {
+    uint32_t value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size() || value == 0 || value > most)
+        fail(ExitCode::Usage, "--shape {}: is not WxL, a width and a number of hidden layers", shape);
+    return value;
+}
+
+MlpShape parseShape(const std::string& text, uint32_t inputs) {
+    const size_t x = text.find('x');
+    if (x == std::string::npos)
+        fail(ExitCode::Usage, "--shape {}: is not WxL, a width and a number of hidden layers", text);
+    MlpShape shape;
+    shape.width = parseCount(text, std::string_view(text).substr(0, x), 128);
+    shape.hiddenLayers = parseCount(text, std::string_view(text).substr(x + 1), 8);
+    shape.inputs = inputs ? inputs : shape.width == 32 ? 32 : 64;
+    shape.outputs = kOutputs;
+    return shape;
+}
+
+std::vector<MlpShape> shapesOf(const BenchMlpOptions& options) {
+    std::vector<std::string> names = options.shapes;
+    if (names.empty())
+        names = options.isQuick ? std::vector<std::string>{"64x5"}
+                                : std::vector<std::string>{"64x5", "64x2", "32x2", "16x2", "128x2"};
+    std::vector<MlpShape> shapes;
+    for (const std::string& name : names) shapes.push_back(parseShape(name, options.inputs));
+    return shapes;
+}
+
+std::vector<NetworkForm> formsOf(const BenchMlpOptions& options) {
+    if (options.form == "subgroup") return {NetworkForm::Subgroup};
+    if (options.form == "workgroup") return {NetworkForm::Workgroup};
+    return {NetworkForm::Subgroup, NetworkForm::Workgroup};
+}
+
+std::vector<Precision> precisionsOf(const BenchMlpOptions& options) {
+    if (options.precision == "float") return {Precision::Float};
+    if (options.precision == "half") return {Precision::Half};
+    return {Precision::Float, Precision::Half};
+}
+
+std::vector<MlpGroup> groupsOf(const BenchMlpOptions& options) {
+    std::vector<MlpGroup> groups;
+    for (const bool isTraining : {false, true}) {
+        if (options.mode == (isTraining ? "inference" : "training")) continue;
+        for (const MlpShape& shape : shapesOf(options))
+            groups.push_back({shape, isTraining, isTraining ? options.trainRows : options.rows,
+                              formsOf(options), precisionsOf(options), options.rowsPerLane});
+    }
+    return groups;
+}
+
+void compileTimes(const BenchMlpOptions& options, const std::vector<MlpGroup>& groups) {
+    std::vector<MlpCase> cases;
+    for (const MlpGroup& group : groups)
+        for (const NetworkForm form : group.forms)
+            for (const Precision precision : group.precisions)
+                cases.push_back({group.shape, form, precision, group.isTraining, group.rowsPerLane});
+    const std::vector<CompileTime> times = measureCompileTimes(options.device, cases);
+    if (options.json != "-") printCompileTimes(times);
+    if (!options.json.empty())
+        writeJson(options.json, toJson(times, Device(options.device).description().name));
+}
+
+void benchMlp(BenchMlpOptions options) {
+    if (options.records != "auto")
+        options.device.records = options.records == "texel" ? RecordAccess::Texel : RecordAccess::Storage;
+    if (options.isQuick) options.rounds = std::min(options.rounds, kQuickRounds);
+    const std::vector<MlpGroup> groups = groupsOf(options);
+    if (options.compileTimes) return compileTimes(options, groups);
+    Device device(options.device);
+    const uint32_t threads = cpuThreads(device);
+    const MlpMachine machine{device.description().name, threads, device.subgroupSize(),
+                             device.isCpu() ? measureCopyBandwidth(threads) : 0.0};
+    const bool withTable = options.json != "-";
+    if (withTable) printHeading(machine);
+    std::vector<MlpResult> results;
+    for (const MlpGroup& group : groups) {
+        const std::vector<MlpResult> some = runRounds(device, group, options.rounds, threads);
+        if (withTable) printResults(some, options.withPasses);
+        results.insert(results.end(), some.begin(), some.end());
+    }
+    if (results.empty()) fail(ExitCode::BadData, "no network of those asked for fits {}", machine.device);
+    if (!options.json.empty()) writeJson(options.json, toJson(results, machine));
+}
+
+void addCaseOptions(CLI::App& command, BenchMlpOptions& options) {
+    command.add_option("--shape", options.shapes, "Width x hidden layers, WxL; repeat for more")
+        ->group("Networks")
+        ->default_str("64x5 64x2 32x2 16x2 128x2");
+    command
+        .add_option("--inputs", options.inputs,
+                    "Encoded inputs, a multiple of 16; 64, for a width of 32 as many")
+        ->check(CLI::Range(16u, 256u))
+        ->group("Networks");
+    const auto choice = [&](const char* name, std::string& value, const char* meaning,
+                            const std::vector<std::string>& names) {
+        command.add_option(name, value, meaning)
+            ->check(CLI::IsMember(names))
+            ->group("Networks")
+            ->capture_default_str();
+    };
+    choice("--form", options.form, "Of the kernels", {"both", "subgroup", "workgroup"});
+    choice("--precision", options.precision, "Of weights and activations", {"both", "float", "half"});
+    choice("--mode", options.mode, "What is timed", {"both", "inference", "training"});
+    command
+        .add_option("--rows-per-lane", options.rowsPerLane,
+                    "Of evaluations in the subgroup form, 1 to 4; the network's choice if none")
+        ->check(CLI::Range(1u, 4u))
+        ->group("Networks");
+}
+
+void addRoundOptions(CLI::App& command, BenchMlpOptions& options) {
+    const CLI::Range rows(1u, 1u << 20);
+    command.add_option("--rows", options.rows, "Rows evaluated")
+        ->check(rows)
+        ->group("Rounds")
+        ->capture_default_str();
+    command.add_option("--train-rows", options.trainRows, "Rows of a training step")
+        ->check(rows)
+        ->group("Rounds")
+        ->capture_default_str();
+    command.add_option("--rounds", options.rounds, "Rounds, each timing all; medians count")
+        ->check(CLI::Range(1u, 10000u))
+        ->group("Rounds")
+        ->capture_default_str();
+    command.add_flag("--quick", options.isQuick, fmt::format("64x5 alone and {} rounds", kQuickRounds))
+        ->group("Rounds");
+    command
+        .add_flag(
+            "--compile-times", options.compileTimes,
+            "Instead: seconds of each kernel's first execution, with an empty shader cache and a full one")
+        ->group("Rounds");
+}
+
+} // namespace
+
+void addBenchMlp(CLI::App& bench) {
+    auto options = std::make_shared<BenchMlpOptions>();
+    CLI::App* command = bench.add_subcommand(
+        "mlp",
+        "The networks, evaluated and trained, against the machine's peak, textbook kernels and oneDNN");
+    addCaseOptions(*command, *options);
+    addRoundOptions(*command, *options);
+    command->add_flag("--passes", options->withPasses, "Also the time of each pass")->group("Output");
+    command->add_option("--json", options->json, "File for the numbers, - for stdout")->group("Output");
+    command->add_option("--device", options->device.select, "Index, name, cpu or gpu")->group("Device");
+    command->add_option("--subgroup", options->device.subgroupSize, "Subgroup size to pin")->group("Device");
+    command->add_option("--records", options->records, "Form of the kernels' records: auto, texel or storage")
+        ->check(CLI::IsMember({"auto", "texel", "storage"}))
+        ->group("Device");
+    command->callback([options] { benchMlp(*options); });
+}
+
+} // namespace irradia

@@ -1,4 +1,5 @@
-// `irradia bench mlp` gives the numbers that programs read. How fast anything is, is not asked here.
+// `irradia bench mlp` and `bench encodings` give the numbers that programs read. How fast anything is, is not
+// asked.
 #include "tests/support/temporary_folder.h"
 #include <catch2/catch_test_macros.hpp>
 #include <cmath>
@@ -26,13 +27,17 @@ std::string contentOf(const std::filesystem::path& file) {
     return text.str();
 }
 
-Run benchMlp(const std::string& arguments) {
+Run bench(const std::string& arguments) {
     const TemporaryFolder folder;
-    const std::string command = IRRADIA_BIN_DIR "/irradia bench mlp --device cpu --quick " + arguments +
-                                " >" + (folder / "out").string() + " 2>" + (folder / "err").string();
+    const std::string command = IRRADIA_BIN_DIR "/irradia bench " + arguments + " --device cpu" + " >" +
+                                (folder / "out").string() + " 2>" + (folder / "err").string();
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contentOf(folder / "out"),
             contentOf(folder / "err")};
+}
+
+Run benchMlp(const std::string& arguments) {
+    return bench("mlp --quick " + arguments);
 }
 
 void checkPositive(const json& entry, const char* key) {
@@ -105,4 +110,16 @@ TEST_CASE("bench mlp names what it cannot use") {
     INFO(odd.err);
     CHECK(odd.code == 65);
     CHECK(odd.err.find("48x2") != std::string::npos);
+}
+
+TEST_CASE("bench encodings gives its numbers as JSON") {
+    const Run run = bench("encodings --rows 300 --rounds 1 --json -");
+    INFO(run.err);
+    REQUIRE(run.code == 0);
+    const json result = json::parse(run.out);
+    REQUIRE(result.at("encodings").size() >= 4);
+    for (const json& entry : result.at("encodings"))
+        for (const char* key : {"width", "milliseconds", "ns_per_row", "time_ratio"})
+            checkPositive(entry, key);
+    CHECK(result.at("rows") == 300);
 }

@@ -9,6 +9,7 @@ void addBench(CLI::App& program) {
     addBenchFrame(*bench);
     addBenchRays(*bench);
     addBenchMlp(*bench);
+    addBenchEncodings(*bench);
 }
 
 } // namespace irradia

@@ -39,7 +39,7 @@ std::vector<FirstRun> firstRuns(Device& device, const MlpCase& what) {
     const auto start = std::chrono::steady_clock::now();
     const std::unique_ptr<MlpRun> run = startCase(device, what, problem);
     std::vector<FirstRun> runs{
-        {"(pipelines)", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()}};
+        {kPipelines, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()}};
     run->run();
     for (const Profiler::Row& row : run->passes())
         if (row.name != "fill" && row.name != "copy") runs.push_back({row.name, 1e-3 * row.p50});

@@ -6,9 +6,12 @@
 
 namespace irradia {
 
+// In place of a kernel: making all pipelines of a case, before the first pass.
+inline constexpr const char* kPipelines = "(all pipelines)";
+
 struct CompileTime {
     MlpCase what;
-    std::string kernel; // a pass, or "(pipelines)": what was compiled before the first pass
+    std::string kernel; // a pass, or kPipelines
     double cold = 0;    // seconds
     double cached = 0;
 };

@@ -111,17 +111,21 @@ void printResults(const std::vector<MlpResult>& results, bool withPasses) {
 }
 
 void printCompileTimes(const std::vector<CompileTime>& times) {
-    fmt::print("{:<7}{:<10}{:<10}{:<6}{:<36}{:>9}{:>9}\n", "shape", "mode", "form", "type",
+    constexpr double kWorthALine = 0.05; // seconds
+    fmt::print("{:<7}{:<10}{:<10}{:<6}{:<20}{:>9}{:>9}\n", "shape", "mode", "form", "type",
                "first execution of", "cold s", "cached s");
-    double cold = 0, cached = 0;
+    const CompileTime *cold = &times.front(), *cached = cold;
     for (const CompileTime& time : times) {
-        fmt::print("{:<7}{:<10}{:<10}{:<6}{:<36}{:>9.3f}{:>9.3f}\n", nameOf(time.what.shape),
-                   modeOf(time.what), nameOf(time.what.form), nameOf(time.what.precision), time.kernel,
-                   time.cold, time.cached);
-        cold = std::max(cold, time.cold);
-        cached = std::max(cached, time.cached);
+        if (std::max(time.cold, time.cached) > kWorthALine)
+            fmt::print("{:<7}{:<10}{:<10}{:<6}{:<20}{:>9.3f}{:>9.3f}\n", nameOf(time.what.shape),
+                       modeOf(time.what), nameOf(time.what.form), nameOf(time.what.precision), time.kernel,
+                       time.cold, time.cached);
+        if (time.kernel == kPipelines) continue;
+        if (time.cold > cold->cold) cold = &time;
+        if (time.cached > cached->cached) cached = &time;
     }
-    fmt::print("slowest: {:.3f} s cold, {:.3f} s cached\n", cold, cached);
+    fmt::print("Slowest kernel: {} in {:.3f} s cold, {} in {:.3f} s cached. Others take below {} s.\n",
+               cold->kernel, cold->cold, cached->kernel, cached->cached, kWorthALine);
 }
 
 Json toJson(const std::vector<MlpResult>& results, const MlpMachine& machine) {

@@ -13,6 +13,7 @@ void addBench(CLI::App& program);
 void addBenchFrame(CLI::App& bench);
 void addBenchRays(CLI::App& bench);
 void addBenchMlp(CLI::App& bench);
+void addBenchEncodings(CLI::App& bench);
 void addLaterCommands(CLI::App& program); // those this version names but does not have
 
 } // namespace irradia

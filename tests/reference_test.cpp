@@ -48,6 +48,28 @@ Environment sunAndSky() {
     return environment;
 }
 
+// The small box behind a wall with a hole, which lights the closed room of the camera.
+Scene darkRoom() {
+    Scene scene = smallBox();
+    for (Material& material : scene.materials) material.roughness = std::max(material.roughness, 0.6f);
+    const uint32_t wall = addMaterial(scene, lambert(glm::vec3(0.7f)));
+    const auto add = [&](const glm::vec3& corner, const glm::vec3& a, const glm::vec3& b) {
+        addQuad(scene, wall, corner, a, b);
+    };
+    add({-1, -1, 1}, {0.6f, 0, 0}, {0, 2, 0}); // around the hole, x in [-0.4, 0.4] and y in [-0.9, -0.4]
+    add({0.4f, -1, 1}, {0.6f, 0, 0}, {0, 2, 0});
+    add({-0.4f, -1, 1}, {0.8f, 0, 0}, {0, 0.1f, 0});
+    add({-0.4f, -0.4f, 1}, {0.8f, 0, 0}, {0, 1.4f, 0});
+    add({-1, -0.3f, 1}, {2, 0, 0}, {0, 0, -0.6f}); // keeps the lamp's own light from it
+    add({-1, -1, 3}, {2, 0, 0}, {0, 2, 0});        // the room, z in [1, 3]
+    add({-1, -1, 1}, {2, 0, 0}, {0, 0, 2});
+    add({-1, 1, 1}, {2, 0, 0}, {0, 0, 2});
+    add({-1, -1, 1}, {0, 2, 0}, {0, 0, 2});
+    add({1, -1, 1}, {0, 2, 0}, {0, 0, 2});
+    scene.cameras[0] = lookAt({0.8f, 0.7f, 1.2f}, {-0.5f, -0.5f, 2.5f}, 1.2f);
+    return scene;
+}
+
 } // namespace
 
 TEST_CASE("a Lambert sphere of albedo 1/2 and emission 1/2 holds radiance 1") {
@@ -157,6 +179,32 @@ TEST_CASE("every strategy of light sampling gives the same picture, and 2 % of r
     const ZTestResult planted = zTest(fault, mis);
     CAPTURE(planted.summary(), medianRelativeSigma(mis));
     CHECK_FALSE(planted.accepted());
+}
+
+TEST_CASE("a portal gives the same picture with less noise, and 10 % of its density would be seen") {
+    const Scene scene = darkRoom();
+    const PathTracer tracer(scene);
+    const auto render = [&](uint64_t seed, const std::optional<Portal>& portal) {
+        RenderSettings settings;
+        settings.width = settings.height = 8;
+        settings.maxBounces = 2;
+        settings.samples = 16000;
+        settings.seed = seed;
+        settings.portal = portal;
+        return tracer.render(scene.cameras[0], settings);
+    };
+    Portal hole{{-0.4, -0.9, 1.0}, {0.8, 0.0, 0.0}, {0.0, 0.5, 0.0}};
+    const ImageEstimate without = render(1, std::nullopt), with = render(2, hole);
+    const ZTestResult same = zTest(with, without);
+    CAPTURE(same.summary(), medianRelativeSigma(with), medianRelativeSigma(without));
+    CHECK(same.accepted());
+    CHECK(std::abs(same.meanRatio - 1.0) < 4.0 * same.meanRatioSigma);
+    CHECK(medianRelativeSigma(with) < 0.5 * medianRelativeSigma(without));
+
+    hole.area *= 1.1;
+    const ZTestResult planted = zTest(render(3, hole), with);
+    CAPTURE(planted.summary());
+    CHECK(std::abs(planted.meanRatio - 1.0) > 4.0 * planted.meanRatioSigma);
 }
 
 TEST_CASE("environment pictures are sampled by their density and read at texel centres") {

@@ -1,10 +1,12 @@
 // The reference: a path tracer in double precision, recursive as the rendering equation reads (Kajiya 1986),
-// with next- event estimation and multiple importance sampling (Veach 1997, balance heuristic).
+// with next-event estimation and multiple importance sampling (Veach 1997, balance heuristic).
 #pragma once
 
 #include "tests/reference/camera_rays.h"
 #include "tests/reference/image_estimate.h"
 #include "tests/reference/lights.h"
+#include "tests/reference/portal.h"
+#include <optional>
 
 namespace irradia::reference {
 
@@ -19,7 +21,9 @@ struct RenderSettings {
         16; // B: a path has at most B + 2 edges, light connection included; 0 = emission and direct light
     uint64_t seed = 1;
     LightStrategy strategy = LightStrategy::Mis;
-    int threads = 0; // 0 = all; the picture does not depend on it
+    int rouletteBounce = 3;       // from which on Russian roulette ends paths of little weight
+    std::optional<Portal> portal; // is sampled for a quarter of the rays that leave points before it
+    int threads = 0;              // 0 = all; the picture does not depend on it
 };
 
 class PathTracer {
@@ -28,24 +32,24 @@ public:
 
     ImageEstimate render(const Camera& camera, const RenderSettings& settings) const;
 
-    // One estimate of the radiance that arrives along a ray at its origin.
-    Vec3 radiance(const Ray& ray, int maxBounces, LightStrategy strategy, Random& random) const;
-
 private:
     // The path up to a ray: what its estimate still needs of it.
     struct Walk {
         int edge = 0;            // number d of the ray, 0 = from the camera
-        double pdf = 0.0;        // with which the BSDF sampled its direction, 1/sr; unused at edge 0
+        double pdf = 0.0;        // with which scatter() sampled its direction, 1/sr; unused at edge 0
         double importance = 1.0; // largest component of the path's weight, for Russian roulette
     };
     struct Estimator {
-        int maxBounces;
-        LightStrategy strategy;
+        const RenderSettings& settings;
         Random& random;
     };
     Vec3 incident(const Ray& ray, const Walk& walk, const Estimator& estimator) const;
     Vec3 direct(const SurfacePoint& point, const Estimator& estimator) const;
     Vec3 indirect(const SurfacePoint& point, const Walk& walk, const Estimator& estimator) const;
+    // The direction of an indirect ray, in the world, by the BSDF or towards the portal; its pdf is that of
+    // the mixture (one-sample model with the balance heuristic).
+    BsdfSample scatter(const SurfacePoint& point, const Estimator& estimator) const;
+    double scatterPdf(const SurfacePoint& point, const Vec3& direction, const Estimator& estimator) const;
     Vec3 leave(const SurfacePoint& point) const; // origin of rays that leave a surface
 
     const Scene* scene_;

@@ -55,7 +55,7 @@ public:
         }
         const double step = tickStep(low_, high_);
         for (double i = std::ceil(low_ / step - 1e-9); i * step <= high_ + 1e-9 * step; ++i)
-            result.push_back(i * step);
+            result.push_back(i * step + 0.0); // no -0
         return result;
     }
 

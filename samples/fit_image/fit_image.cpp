@@ -95,6 +95,9 @@ nlohmann::ordered_json numbers(const Result& result, const Picture& picture, Ima
                                const Device& device, const FitOptions& options) {
     const CurvePoint& last = result.curve.points.back();
     const TrainingCounts counts = learner.trainer().counts();
+    auto passes = nlohmann::ordered_json::array();
+    for (const Profiler::Row& row : learner.profiler().rows())
+        passes.push_back({{"name", row.name}, {"p50", row.p50}, {"p90", row.p90}, {"runs", row.runs}});
     return {{"device", device.description().name},
             {"driver", device.description().driver},
             {"picture", options.picture},
@@ -106,12 +109,13 @@ nlohmann::ordered_json numbers(const Result& result, const Picture& picture, Ima
             {"seed", options.seed},
             {"steps", last.step},
             {"seconds", last.seconds},
-            {"milliseconds_per_step", 1e3 * last.seconds / last.step},
+            {"milliseconds_per_step", learner.profiler().wall().p50},
             {"loss", last.loss},
             {"psnr", result.psnr},
             {"dropped_records", counts.droppedRecords},
             {"damaged_parameters", counts.damagedParameters},
-            {"memory_bytes", device.memoryUsed()}};
+            {"memory_bytes", device.memoryUsed()},
+            {"passes", passes}}; // of a step, milliseconds
 }
 
 void writeText(const std::string& file, const std::string& text) {

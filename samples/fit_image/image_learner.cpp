@@ -5,6 +5,7 @@
 #include "shared/network.h"
 #include <algorithm>
 #include <bit>
+#include <chrono>
 
 namespace irradia {
 namespace {
@@ -49,6 +50,7 @@ ImageLearner::ImageLearner(Device& device, const Picture& picture, const ModelCo
     , inferRows_(inferRows(picture))
     , trainer_(device, config, 2, 3, trainerOptions(picture, options))
     , graph_(device)
+    , stepGraph_(device, &profiler_)
     , drawPixels_(device, kernels::draw_pixels)
     , listPixels_(device, kernels::list_pixels)
     , pictureRecords_(pictureBuffer(device, picture))
@@ -61,14 +63,16 @@ ImageLearner::ImageLearner(Device& device, const Picture& picture, const ModelCo
     , hostResults_(device, "predictions on the host", kRecordBytes * inferRows_, Memory::Host) {
     if (pixels_ <= kMaxInferRows) return;
     const Buffer targets(device, "measured targets", kRecordBytes * inferRows_);
-    draw(static_cast<uint32_t>(std::countr_zero(inferRows_)), kMeasuredStep, measuredInputs_, targets);
+    draw(graph_, static_cast<uint32_t>(std::countr_zero(inferRows_)), kMeasuredStep, measuredInputs_,
+         targets);
     graph_.execute();
     for (const glm::vec4& colour : download<glm::vec4>(device, targets, inferRows_))
         measuredColours_.emplace_back(colour);
 }
 
-void ImageLearner::draw(uint32_t log2Rows, uint32_t step, const Buffer& inputs, const Buffer& targets) {
-    graph_.pass(drawPixels_)
+void ImageLearner::draw(FrameGraph& graph, uint32_t log2Rows, uint32_t step, const Buffer& inputs,
+                        const Buffer& targets) {
+    graph.pass(drawPixels_)
         .read(pictureRecords_)
         .write(inputs)
         .write(targets)
@@ -92,14 +96,19 @@ std::span<const glm::vec4> ImageLearner::infer(const Buffer& inputs, uint32_t ro
 }
 
 void ImageLearner::learn(uint32_t rows) {
+    const auto start = std::chrono::steady_clock::now();
     reinterpret_cast<uint32_t*>(counters_.mapped().data())[BatchRows] = rows;
-    draw(options_.log2Batch, step_, batchInputs_, batchTargets_);
-    trainer_.train(graph_, {{counters_, BatchRows, 1u << options_.log2Batch}, batchInputs_, batchTargets_});
-    graph_.execute();
+    draw(stepGraph_, options_.log2Batch, step_, batchInputs_, batchTargets_);
+    trainer_.train(stepGraph_,
+                   {{counters_, BatchRows, 1u << options_.log2Batch}, batchInputs_, batchTargets_});
+    stepGraph_.execute();
+    profiler_.endFrame(
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
 }
 
 void ImageLearner::warmUp() {
     learn(0); // a step without records changes nothing
+    profiler_.reset();
     list(0, inferRows_);
     infer(listedInputs_, std::min(pixels_, inferRows_));
 }

@@ -27,9 +27,11 @@ public:
     std::vector<glm::vec3> predict();
 
     Trainer& trainer() { return trainer_; }
+    const Profiler& profiler() const { return profiler_; } // a frame is a step
 
 private:
-    void draw(uint32_t log2Rows, uint32_t step, const Buffer& inputs, const Buffer& targets);
+    void draw(FrameGraph& graph, uint32_t log2Rows, uint32_t step, const Buffer& inputs,
+              const Buffer& targets);
     void list(uint32_t first, uint32_t rows);
     // Colours of the first `rows` places in inputs_ of predictions.
     std::span<const glm::vec4> infer(const Buffer& inputs, uint32_t rows);
@@ -41,7 +43,9 @@ private:
     uint32_t pixels_;
     uint32_t inferRows_; // of a prediction at most
     Trainer trainer_;
-    FrameGraph graph_;
+    Profiler profiler_;
+    FrameGraph graph_;     // of what is measured and predicted
+    FrameGraph stepGraph_; // of learning, which is profiled
     Kernel drawPixels_;
     Kernel listPixels_;
     Buffer pictureRecords_;

@@ -12,40 +12,44 @@ constexpr uint64_t kGridAlignment = 16; // features: whole entries of any grid
 constexpr float kInitialFeature = 1e-4f;
 
 struct Grid {
-    Buffer levels;
+    Buffer table;   // of levels
     Buffer entries; // of a sparse grid
     Kernel accumulate;
+    uint32_t levels = 0;
+    uint32_t encodeGroups = 0; // of levels: shaders/nrc/grid.glsl
 };
 
-struct Slice {
+struct SlicePass {
+    const char* name = nullptr;
     Kernel encode;
     std::unique_ptr<Grid> grid; // of a slice that is a grid
-    const char* name;           // of its pass
 };
-
-// Tables and the kernels of a grid whose features begin at `features`, which grows by them.
-Slice makeGridSlice(Device& device, const EncodingLayout& layout, const EncodingSlice& slice,
-                    const FeatureGrid& made, Precision precision) {
-    Slice result{makeEncodeGridKernel(device, layout, slice, made, precision), std::make_unique<Grid>(),
-                 kernels::encode_grid.name};
-    std::vector<gpu::GridLevel> levels = made.levels;
-    levels.resize(gpu::kMaxGridLevels);
-    result.grid->levels = makeBuffer(device, "grid levels", levels);
-    result.grid->entries = makeBuffer(device, "grid entries", made.entries);
-    return result;
-}
 
 const char* passName(EncodingType type) {
     switch (type) {
     case EncodingType::Identity:
         return kernels::encode_identity.name;
+    case EncodingType::Frequency:
+    case EncodingType::TriangleWave:
+        return kernels::encode_frequency.name;
     case EncodingType::OneBlob:
         return kernels::encode_one_blob.name;
     case EncodingType::SphericalHarmonics:
         return kernels::encode_spherical_harmonics.name;
     default:
-        return kernels::encode_frequency.name;
+        return kernels::encode_grid.name;
     }
+}
+
+std::unique_ptr<Grid> makeGrid(Device& device, const FeatureGrid& made, const EncodingSlice& slice) {
+    auto grid = std::make_unique<Grid>();
+    std::vector<gpu::GridLevel> table = made.levels;
+    table.resize(gpu::kMaxGridLevels);
+    grid->table = makeBuffer(device, "grid levels", table);
+    grid->entries = makeBuffer(device, "grid entries", made.entries);
+    grid->levels = slice.config.levels;
+    grid->encodeGroups = slice.quads() / ((slice.config.featuresPerLevel + 3) / 4);
+    return grid;
 }
 
 } // namespace
@@ -53,33 +57,44 @@ const char* passName(EncodingType type) {
 struct Encoding::State {
     EncodingLayout layout;
     uint64_t features = 0;
-    std::vector<Slice> slices;
+    std::vector<SlicePass> slices;
     Kernel take;
+
+    std::vector<FeatureGrid> layOutGrids(const Device& device, std::span<const glm::vec3> touched);
 };
+
+// The grids one after the other; `features` becomes their sum.
+std::vector<FeatureGrid> Encoding::State::layOutGrids(const Device& device,
+                                                      std::span<const glm::vec3> touched) {
+    std::vector<FeatureGrid> grids;
+    for (const EncodingSlice& slice : layout.slices) {
+        if (!isGrid(slice.config.type)) continue;
+        const uint64_t perEntry = slice.config.featuresPerLevel;
+        grids.push_back(makeFeatureGrid(slice.config, features / perEntry, device.limits(), touched));
+        features = (grids.back().end * perEntry + kGridAlignment - 1) / kGridAlignment * kGridAlignment;
+    }
+    return grids;
+}
 
 Encoding::Encoding(Device& device, const std::vector<EncodingConfig>& parts, uint32_t inputs,
                    Precision precision, std::span<const glm::vec3> touched)
     : state_(std::make_unique<State>()) {
     State& s = *state_;
     s.layout = layOut(parts, inputs);
-    std::vector<FeatureGrid> grids;
-    for (const EncodingSlice& slice : s.layout.slices) {
-        if (!isGrid(slice.config.type)) continue;
-        const uint64_t perEntry = slice.config.featuresPerLevel;
-        grids.push_back(makeFeatureGrid(slice.config, s.features / perEntry, device.limits(), touched));
-        s.features = (grids.back().end * perEntry + kGridAlignment - 1) / kGridAlignment * kGridAlignment;
-    }
+    const std::vector<FeatureGrid> grids = s.layOutGrids(device, touched);
     auto grid = grids.begin();
     for (const EncodingSlice& slice : s.layout.slices) {
-        if (!isGrid(slice.config.type)) {
-            s.slices.push_back(
-                {makeEncodeKernel(device, s.layout, slice, precision), nullptr, passName(slice.config.type)});
-            continue;
+        SlicePass pass{passName(slice.config.type), {}, nullptr};
+        if (isGrid(slice.config.type)) {
+            pass.encode = makeEncodeGridKernel(device, s.layout, slice, *grid, precision);
+            pass.grid = makeGrid(device, *grid, slice);
+            pass.grid->accumulate =
+                makeAccumulateKernel(device, s.layout, slice, *grid, s.features, precision);
+            ++grid;
+        } else {
+            pass.encode = makeEncodeKernel(device, s.layout, slice, precision);
         }
-        s.slices.push_back(makeGridSlice(device, s.layout, slice, *grid, precision));
-        s.slices.back().grid->accumulate =
-            makeAccumulateKernel(device, s.layout, slice, *grid, s.features, precision);
-        ++grid;
+        s.slices.push_back(std::move(pass));
     }
     if (s.features > 0) s.take = Kernel(device, kernels::take_grid_gradient);
 }
@@ -113,30 +128,32 @@ void Encoding::initialise(std::span<float> features, uint64_t seed) const {
 
 void Encoding::encode(FrameGraph& graph, const RowCount& rows, BufferRange inputs, BufferRange features,
                       BufferRange encoded) const {
-    for (const Slice& slice : state_->slices) {
+    for (const SlicePass& slice : state_->slices) {
         Pass pass = graph.pass(slice.encode, slice.name);
         pass.read(rows.counters).read(inputs);
         if (slice.grid)
-            pass.read(slice.grid->levels)
+            pass.read(slice.grid->table)
                 .read({*features.buffer, features.offset, featureCount() * 4})
                 .read(slice.grid->entries);
-        pass.write(encoded).push(gpu::RowsParams{rows.index, rows.capacity}).dispatch(rows.capacity);
+        pass.write(encoded)
+            .push(gpu::RowsParams{rows.index, rows.capacity})
+            .dispatch(uint64_t(rows.capacity) * (slice.grid ? slice.grid->encodeGroups : 1));
     }
 }
 
 void Encoding::accumulateGradient(FrameGraph& graph, const RowCount& rows, BufferRange inputs,
                                   BufferRange encodedGradient, BufferRange sums) const {
-    for (const Slice& slice : state_->slices) {
+    for (const SlicePass& slice : state_->slices) {
         if (!slice.grid) continue;
         graph.pass(slice.grid->accumulate, kernels::accumulate_grid_gradient.name)
             .read(rows.counters)
             .read(inputs)
-            .read(slice.grid->levels)
+            .read(slice.grid->table)
             .read(slice.grid->entries)
             .read(encodedGradient)
             .readWrite({*sums.buffer, sums.offset, sumBytes()})
             .push(gpu::RowsParams{rows.index, rows.capacity})
-            .dispatch(rows.capacity);
+            .dispatch(uint64_t(rows.capacity) * slice.grid->levels);
     }
 }
 

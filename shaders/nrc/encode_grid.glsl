@@ -4,11 +4,10 @@
 
 RECORDS_READ(3, features);
 WORDS_READ(4, entries);
-QUADS_WRITE(5, encoded);
+ENCODED_WRITE(5);
 
 #include "nrc/grid.glsl"
 
-const uint kLevelQuads = (kFeatures + 3u) / 4u;
 const uint kLevelsTogether = kFeatures < 4u ? 4u / kFeatures : 1u; // in a quad
 const uint kValueQuads = ((kMean ? 1u : kLevels) * kFeatures + 3u) / 4u;
 
@@ -41,44 +40,44 @@ void levelFeatures(vec3 position, uint l, out vec4 sum[kLevelQuads]) {
     }
 }
 
-void storeConcatenation(uint row, vec3 position) {
-    for (uint first = 0u; first < kLevels; first += kLevelsTogether) {
-        vec4 quad[kLevelQuads];
-        [[unroll]] for (uint q = 0u; q < kLevelQuads; ++q) quad[q] = vec4(1.0);
-        [[unroll]] for (uint i = 0u; i < kLevelsTogether; ++i) {
-            if (first + i < kLevels) {
-                vec4 level[kLevelQuads];
-                levelFeatures(position, first + i, level);
-                [[unroll]] for (uint f = 0u; f < kFeatures; ++f)
-                    quad[f / 4u][(i * kFeatures + f) % 4u] = level[f / 4u][f % 4u];
-            }
+// The levels of a group, whose values begin and end a quad.
+void storeConcatenation(uint row, vec3 position, uint group) {
+    vec4 quad[kLevelQuads];
+    [[unroll]] for (uint q = 0u; q < kLevelQuads; ++q) quad[q] = vec4(1.0);
+    [[unroll]] for (uint i = 0u; i < kLevelsTogether; ++i) {
+        uint l = group * kLevelsTogether + i;
+        if (l < kLevels) {
+            vec4 sum[kLevelQuads];
+            levelFeatures(position, l, sum);
+            [[unroll]] for (uint f = 0u; f < kFeatures; ++f) quad[f / 4u][(i * kFeatures + f) % 4u] = sum[f / 4u][f % 4u];
         }
-        [[unroll]] for (uint q = 0u; q < kLevelQuads; ++q) storeEncoded(row, first * kFeatures / 4u + q, quad[q]);
     }
+    [[unroll]] for (uint q = 0u; q < kLevelQuads; ++q) storeEncoded(row, group * kLevelQuads + q, quad[q]);
 }
 
 void storeMean(uint row, vec3 position) {
-    vec4 sum[kLevelQuads];
-    [[unroll]] for (uint q = 0u; q < kLevelQuads; ++q) sum[q] = vec4(0.0);
+    vec4 mean[kLevelQuads];
+    [[unroll]] for (uint q = 0u; q < kLevelQuads; ++q) mean[q] = vec4(0.0);
     for (uint l = 0u; l < kLevels; ++l) {
-        vec4 level[kLevelQuads];
-        levelFeatures(position, l, level);
-        [[unroll]] for (uint q = 0u; q < kLevelQuads; ++q) sum[q] += level[q];
+        vec4 sum[kLevelQuads];
+        levelFeatures(position, l, sum);
+        [[unroll]] for (uint q = 0u; q < kLevelQuads; ++q) mean[q] += levelShare() * sum[q];
     }
     [[unroll]] for (uint q = 0u; q < kLevelQuads; ++q) {
-        vec4 quad = vec4(1.0);
         [[unroll]] for (uint c = 0u; c < 4u; ++c)
-            if (q * 4u + c < kFeatures) quad[c] = levelShare() * sum[q][c];
-        storeEncoded(row, q, quad);
+            if (q * 4u + c >= kFeatures) mean[q][c] = 1.0;
+        storeEncoded(row, q, mean[q]);
     }
 }
 
 void main() {
-    uint row = gl_GlobalInvocationID.x;
+    uint group;
+    uint row = rowAndGroup(group);
     if (row >= counters[params.counter]) return;
     loadInputs(row);
     vec3 position = gridPosition();
     if (kMean) storeMean(row, position);
-    else storeConcatenation(row, position);
-    [[unroll]] for (uint q = 0u; q < kPaddingQuads; ++q) storeEncoded(row, kValueQuads + q, vec4(1.0));
+    else storeConcatenation(row, position, group);
+    if (group == 0u)
+        [[unroll]] for (uint q = 0u; q < kPaddingQuads; ++q) storeEncoded(row, kValueQuads + q, vec4(1.0));
 }

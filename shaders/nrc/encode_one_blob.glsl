@@ -6,7 +6,7 @@
 layout(constant_id = 8) const uint kBins = 4u;
 layout(constant_id = 9) const bool kGaussian = false;
 
-QUADS_WRITE(2, encoded);
+ENCODED_WRITE(2);
 
 const uint kValues = kDims * kBins;
 

@@ -10,8 +10,18 @@ layout(constant_id = 11) const bool kMean = false;  // over levels; else their v
 layout(set = 0, binding = 2, std140) uniform Levels { GridLevel levels[kMaxGridLevels]; };
 
 const uint kCorners = 1u << kDims;
+const uint kLevelQuads = (kFeatures + 3u) / 4u; // that hold the values of a level
 
 float levelShare() { return kMean ? 1.0 / float(kLevels) : 1.0; }
+
+// An invocation's row, and which of several groups of levels is its. Groups come one after the other, each for all rows:
+// one or two tables at a time stay in the caches (on lavapipe 15 % less time with 2^15 entries), and its threads, which take
+// halves of the work, add to different ones.
+uint rowAndGroup(out uint group) {
+    uint first = gl_WorkGroupID.x * gl_WorkGroupSize.x;
+    for (group = 0u; first >= params.capacity; ++group) first -= params.capacity;
+    return first + gl_LocalInvocationID.x;
+}
 
 // A grid's position: what is not in the unit cube is moved to its border, NaN to 0.
 vec3 gridPosition() {

@@ -114,16 +114,17 @@ void printCompileTimes(const std::vector<CompileTime>& times) {
     constexpr double kWorthALine = 0.05; // seconds
     fmt::print("{:<7}{:<10}{:<10}{:<6}{:<20}{:>9}{:>9}\n", "shape", "mode", "form", "type",
                "first execution of", "cold s", "cached s");
-    const CompileTime *cold = &times.front(), *cached = cold;
+    const CompileTime *cold = nullptr, *cached = nullptr; // the slowest
     for (const CompileTime& time : times) {
         if (std::max(time.cold, time.cached) > kWorthALine)
             fmt::print("{:<7}{:<10}{:<10}{:<6}{:<20}{:>9.3f}{:>9.3f}\n", nameOf(time.what.shape),
                        modeOf(time.what), nameOf(time.what.form), nameOf(time.what.precision), time.kernel,
                        time.cold, time.cached);
         if (time.kernel == kPipelines) continue;
-        if (time.cold > cold->cold) cold = &time;
-        if (time.cached > cached->cached) cached = &time;
+        if (!cold || time.cold > cold->cold) cold = &time;
+        if (!cached || time.cached > cached->cached) cached = &time;
     }
+    if (!cold) return;
     fmt::print("Slowest kernel: {} in {:.3f} s cold, {} in {:.3f} s cached. Others take below {} s.\n",
                cold->kernel, cold->cold, cached->kernel, cached->cached, kWorthALine);
 }

@@ -14,7 +14,7 @@ namespace {
 
 struct BenchEncodingsOptions {
     uint32_t rows = 1u << 16;
-    uint32_t rounds = 15;
+    uint32_t rounds = 45;
     std::string precision = "float";
     std::string json;
     DeviceOptions device;

@@ -6,6 +6,6 @@
 namespace irradia {
 
 // GFLOP/s, a multiply-add counted as two; best of a few runs of about `seconds`.
-double measureDevicePeak(Device& device, double seconds = 0.02);
+double measureDevicePeak(Device& device, double seconds = 0.05);
 
 } // namespace irradia

@@ -14,7 +14,7 @@ namespace {
 
 struct BenchEncodingsOptions {
     uint32_t rows = 1u << 16;
-    uint32_t rounds = 45;
+    uint32_t rounds = 25;
     std::string precision = "float";
     std::string json;
     DeviceOptions device;
@@ -163,7 +163,7 @@ void benchEncodings(const BenchEncodingsOptions& options) {
     for (EncodingRun& run : runs) run.run(); // compiles
     for (uint32_t round = 0; round < options.rounds; ++round)
         for (EncodingRun& run : runs) {
-            run.seconds.push_back(run.run());
+            run.seconds.push_back(median(repeated([&] { return run.run(); })));
             run.ratios.push_back(run.seconds.back() / runs.front().seconds.back());
         }
     if (options.json != "-") printTable(runs, options, device);

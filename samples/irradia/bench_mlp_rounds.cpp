@@ -5,7 +5,6 @@
 #include "samples/yardsticks/device_peak.h"
 #include "samples/yardsticks/mlp_yardstick.h"
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 namespace irradia {
@@ -42,19 +41,6 @@ std::vector<Contender> startContenders(Device& device, const MlpGroup& group, co
             }
         }
     return all;
-}
-
-// Short runs are repeated, and the median counts.
-template <typename Run>
-auto repeated(const Run& run) {
-    constexpr double kSeconds = 0.015;
-    constexpr size_t kRuns = 50;
-    std::vector<decltype(run())> times;
-    const auto start = std::chrono::steady_clock::now();
-    do times.push_back(run());
-    while (times.size() < kRuns &&
-           std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() < kSeconds);
-    return times;
 }
 
 double yardstickTime(MlpYardstick& yardstick, bool isTraining) {

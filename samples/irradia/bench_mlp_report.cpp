@@ -79,7 +79,7 @@ void printHeading(const MlpMachine& machine) {
                machine.threads,
                machine.copyGbps > 0 ? fmt::format("; copies {:.1f} GB/s", machine.copyGbps) : "");
     fmt::print("Ratios: medians of the rounds' ratios of speed, by the device's clock over the passes.\n\n");
-    fmt::print("{:<7}{:<10}{:<10}{:<6}{:>9}{:>9}{:>9}{:>9}{:>8}{:>10}{:>9}{:>9}{:>10}{:>8}\n", "shape",
+    fmt::print("{:<7}{:<10}{:<10}{:<6}{:>9}{:>9}{:>9}{:>9}{:>8}{:>10}{:>11}{:>9}{:>10}{:>8}\n", "shape",
                "mode", "form", "type", "wall ms", "passes", "Mrows/s", "GFLOP/s", "of peak", "textbook",
                "oneDNN", "B/row", "unfused", "GB/s");
 }
@@ -88,7 +88,7 @@ void printResults(const std::vector<MlpResult>& results, bool withPasses) {
     for (const MlpResult& result : results) {
         const RowTraffic traffic = trafficOf(result.what, result.rows);
         fmt::print(
-            "{:<7}{:<10}{:<10}{:<6}{:>9.3f}{:>9.3f}{:>9.3f}{:>9.1f}{:>7.1f}%{:>9.1f}x{:>9}{:>9.0f}{:>10.0f}"
+            "{:<7}{:<10}{:<10}{:<6}{:>9.3f}{:>9.3f}{:>9.3f}{:>9.1f}{:>7.1f}%{:>9.1f}x{:>11}{:>9.0f}{:>10.0f}"
             "{:>8.2f}\n",
             nameOf(result.what.shape), modeOf(result.what), nameOf(result.what.form),
             nameOf(result.what.precision), 1e3 * result.wall, 1e3 * result.passes, 1e-6 * rowRate(result),

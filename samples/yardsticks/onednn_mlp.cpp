@@ -1,5 +1,5 @@
 // The network by oneDNN, each thread with its share of the rows. (oneDNN's own threads, OpenMP's, meet after
-// every layer: as fast on an idle machine, and ten times slower as soon as anything else runs.)
+// every layer: half as fast on an idle machine, a tenth as soon as anything else runs.)
 #include "samples/yardsticks/mlp_yardstick.h"
 #include "samples/yardsticks/onednn_part.h"
 #include "samples/yardsticks/parallel_time.h"

@@ -4,7 +4,7 @@
 #include "shared/types.h"
 SHARED_BEGIN
 
-SHARED_CONST uint kPeakSums = 3u; // vectors of four: what fits 16 vector registers, and hides the latency
+SHARED_CONST uint kPeakSums = 3u;    // vectors of four: what fits 16 vector registers, and hides the latency
 SHARED_CONST uint kPeakUnroll = 16u; // multiply-adds of each in an iteration
 
 struct DevicePeakParams {

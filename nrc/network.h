@@ -51,7 +51,10 @@ public:
 
     // From the gradient of the loss by the results (after the output's activation, so that `results` are read
     // too) to that by each layer's activations; with `inputGradient`, also by the encoded inputs (rows of
-    // inputs() / 4 quads).
+    // inputs() / 4 quads). resultGradient beyond outputs() must be zero in a row's last quad. Half precision:
+    // the subgroup form hands on to the next layer what it has in registers, the workgroup form what it has
+    // rounded. An exponential output that is cut at exp(30) still has its own value as derivative, so that
+    // training can bring it back.
     uint64_t layerGradientBytes(uint32_t capacity) const;
     void backward(FrameGraph& graph, const RowCount& rows, BufferRange packed, BufferRange activations,
                   BufferRange results, BufferRange resultGradient, BufferRange layerGradients,

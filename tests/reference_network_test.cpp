@@ -62,6 +62,24 @@ TEST_CASE("a network of one neuron by hand") {
     CHECK(run({2, -1, 0.5, -4}) == 0.0);
 }
 
+TEST_CASE("what is kept between passes can be rounded") {
+    Mlp mlp{1, 1, 1, 1};
+    mlp.storedOutputs = 1;
+    mlp.store = [](double x) { return std::round(x); };
+    const std::vector<double> weights{0.4, 0.4};
+    const auto resultOf = [&] { return mlp.forward(weights, {3.5}).results[0]; }; // 0.4 relu(0.4 * 3.5)
+    const auto gradientOf = [&] {
+        std::vector<double> gradient(2, 0.0);
+        gradient.push_back(mlp.backward(weights, mlp.forward(weights, {3.5}), {5.6}, gradient)[0]);
+        return gradient;
+    };
+    CHECK(resultOf() == Approx(0.4));
+    CHECK(gradientOf() == std::vector<double>{7.0, 6.0, 1.0}); // 5.6 is kept as 6, then 2.4 as 2
+    mlp.handsOnStored = false;
+    CHECK(resultOf() == Approx(0.56));
+    CHECK(gradientOf() == std::vector<double>{7.0, 6.0, 1.0}); // 2.24 as 2, then 0.896 as 1
+}
+
 TEST_CASE("the gradients of a network agree with central differences") {
     Random random(4);
     for (const Activation output :

@@ -148,11 +148,14 @@ void writeChart(const Result& result, const Picture& picture, ImageLearner& lear
     std::vector<LearningCurve> curves{result.curve};
     for (const std::string& file : options.against) curves.push_back(readCsv(file));
     const std::string name = std::filesystem::path(options.picture).filename().string();
-    writeText(options.chart,
-              toChart(curves, fmt::format("{} as learned by {}", name, result.curve.name),
-                      fmt::format("{} x {} pixels, batches of {}, {}, on {}", picture.width, picture.height,
-                                  options.batch, describe(learner.trainer().network().config()),
-                                  device.description().name)));
+    const bool isAlone = options.against.empty();
+    const std::string title = fmt::format(
+        "{} as learned by {}", name, isAlone ? result.curve.name : fmt::format("{} networks", curves.size()));
+    const std::string network = isAlone ? describe(learner.trainer().network().config()) + ", " : "";
+    const std::string subtitle =
+        fmt::format("{} x {} pixels, {}batches of {}, on {}", picture.width, picture.height, network,
+                    options.batch, device.description().name);
+    writeText(options.chart, toChart(curves, title, subtitle));
 }
 
 } // namespace

@@ -10,7 +10,7 @@ namespace irradia {
 struct FitOptions {
     std::string picture;
     std::string network; // JSON file; empty = networks/hash_grid.json, which is built in
-    uint32_t steps = 2000;
+    uint32_t steps = 1000;
     double seconds = 0; // of learning, instead of a number of steps
     uint32_t batch = 1u << 14;
     uint32_t seed = 1;

@@ -18,17 +18,21 @@ std::vector<double> multiply(const std::vector<double>& weights, const Matrix& m
     return y;
 }
 
-// Through y = M x: adds the derivatives by M, returns those by x.
-std::vector<double> multiplyBackward(const std::vector<double>& weights, const Matrix& m,
-                                     const std::vector<double>& x, const std::vector<double>& yGradient,
-                                     std::vector<double>& weightGradient) {
+// Through y = M x: adds the derivatives by M.
+void addOuterProduct(const Matrix& m, const std::vector<double>& yGradient, const std::vector<double>& x,
+                     std::vector<double>& weightGradient) {
+    for (std::size_t r = 0; r < yGradient.size(); ++r)
+        for (std::size_t c = 0; c < m.columns; ++c)
+            weightGradient[m.offset + r * m.columns + c] += yGradient[r] * x[c];
+}
+
+// The same, by x.
+std::vector<double> multiplyTransposed(const std::vector<double>& weights, const Matrix& m,
+                                       const std::vector<double>& yGradient) {
     std::vector<double> xGradient(m.columns, 0.0);
     for (std::size_t r = 0; r < yGradient.size(); ++r)
-        for (std::size_t c = 0; c < m.columns; ++c) {
-            const std::size_t at = m.offset + r * m.columns + c;
-            weightGradient[at] += yGradient[r] * x[c];
-            xGradient[c] += yGradient[r] * weights[at];
-        }
+        for (std::size_t c = 0; c < m.columns; ++c)
+            xGradient[c] += yGradient[r] * weights[m.offset + r * m.columns + c];
     return xGradient;
 }
 
@@ -78,20 +82,27 @@ std::size_t Mlp::weightCount() const {
     return last.offset + last.rows * last.columns;
 }
 
+std::vector<double> Mlp::kept(std::vector<double> x) const {
+    for (double& value : x) value = kept(value);
+    return x;
+}
+
 Mlp::Activations Mlp::forward(const std::vector<double>& weights, const std::vector<double>& input) const {
     Activations made;
     made.margin = INFINITY;
     made.layers.push_back(input);
     const std::vector<Matrix> all = matrices();
+    std::vector<double> a = input;
     for (std::size_t l = 0; l < hiddenLayers; ++l) {
-        std::vector<double> a = multiply(weights, all[l], made.layers.back(), width);
+        a = multiply(weights, all[l], a, width);
         for (double& z : a) {
             made.margin = std::min(made.margin, std::abs(z));
-            z = kept(std::max(z, 0.0));
+            z = std::max(z, 0.0);
         }
-        made.layers.push_back(std::move(a));
+        made.layers.push_back(kept(a));
+        if (handsOnStored) a = made.layers.back();
     }
-    made.z = multiply(weights, all.back(), made.layers.back(), outputs);
+    made.z = multiply(weights, all.back(), a, outputs);
     for (const double z : made.z) made.results.push_back(activate(output, z));
     return made;
 }
@@ -102,13 +113,16 @@ std::vector<double> Mlp::backward(const std::vector<double>& weights, const Acti
     const std::vector<Matrix> all = matrices();
     std::vector<double> gradient;
     for (std::size_t o = 0; o < outputs; ++o)
-        gradient.push_back(kept(resultGradient[o] * activationSlope(output, activations.z[o])));
+        gradient.push_back(resultGradient[o] * activationSlope(output, activations.z[o]));
     for (std::size_t l = hiddenLayers; l > 0; --l) {
         const std::vector<double>& a = activations.layers[l];
-        gradient = multiplyBackward(weights, all[l], a, gradient, weightGradient);
-        for (std::size_t n = 0; n < width; ++n) gradient[n] = a[n] > 0.0 ? kept(gradient[n]) : 0.0;
+        addOuterProduct(all[l], kept(gradient), a, weightGradient);
+        gradient = multiplyTransposed(weights, all[l], handsOnStored ? kept(gradient) : gradient);
+        for (std::size_t n = 0; n < width; ++n)
+            if (a[n] <= 0.0) gradient[n] = 0.0;
     }
-    return multiplyBackward(weights, all[0], activations.layers[0], gradient, weightGradient);
+    addOuterProduct(all[0], kept(gradient), activations.layers[0], weightGradient);
+    return kept(multiplyTransposed(weights, all[0], handsOnStored ? kept(gradient) : gradient));
 }
 
 } // namespace irradia::reference

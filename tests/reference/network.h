@@ -23,8 +23,9 @@ struct Mlp {
     std::size_t inputs = 16, width = 16, hiddenLayers = 1, outputs = 1;
     Activation output = Activation::None;
     std::size_t storedOutputs = 16; // rows of the last matrix; those beyond `outputs` have no meaning
-    // How activations and their gradients are kept between layers, e.g. roundToHalf; null: as they are.
+    // How activations and gradients are kept for later passes, e.g. roundToHalf; null: as they are.
     std::function<double(double)> store;
+    bool handsOnStored = true; // to the next layer; else what has not been rounded
 
     std::vector<Matrix> matrices() const;
     std::size_t weightCount() const;
@@ -46,6 +47,7 @@ struct Mlp {
 
 private:
     double kept(double x) const { return store ? store(x) : x; }
+    std::vector<double> kept(std::vector<double> x) const;
 };
 
 } // namespace irradia::reference

@@ -29,4 +29,16 @@ inline double medianRelativeSigma(const ImageEstimate& image) {
     return *middle;
 }
 
+// Two independent estimates of the same picture, from so many samples a pixel each, as one of all samples.
+inline ImageEstimate merged(const ImageEstimate& a, double samplesA, const ImageEstimate& b,
+                            double samplesB) {
+    const double shareA = samplesA / (samplesA + samplesB), shareB = 1.0 - shareA;
+    ImageEstimate both = a;
+    for (size_t i = 0; i < both.size(); ++i) {
+        both.mean[i] = shareA * a.mean[i] + shareB * b.mean.at(i);
+        both.variance[i] = shareA * shareA * a.variance[i] + shareB * shareB * b.variance.at(i);
+    }
+    return both;
+}
+
 } // namespace irradia::reference

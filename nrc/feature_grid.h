@@ -15,9 +15,10 @@ struct FeatureGrid {
     uint64_t end = 0;              // the first entry behind the grid
 };
 
-// A grid whose entries begin at `first`. Levels of a DenseGrid and a SparseGrid have a corner more an edge
-// than tiny-cuda-nn's, which lets features of opposite faces of the cube be the same. Throws Error(BadData)
-// where the configuration has no such grid, Error(OutOfMemory) with the numbers where it outgrows a binding.
+// A grid whose entries begin at `first`, level after level, each padded to a multiple of 8 entries. Levels of
+// a DenseGrid and a SparseGrid have a corner more an edge than tiny-cuda-nn's, which lets features of
+// opposite faces of the cube be the same. Throws Error(BadData) where the configuration has no such grid,
+// Error(OutOfMemory) with the numbers where it outgrows a binding.
 FeatureGrid makeFeatureGrid(const EncodingConfig& config, uint64_t first,
                             const VkPhysicalDeviceLimits& limits, std::span<const glm::vec3> touched);
 

@@ -3,8 +3,9 @@
 #ifndef IRRADIA_ENCODING_GLSL
 #define IRRADIA_ENCODING_GLSL
 
-// 2 |x mod 2 - 1| - 1: 1 at even x, -1 at odd x. Exact but for the last subtraction.
-float triangleWave(float x) { return abs(4.0 * fract(0.5 * x) - 2.0) - 1.0; }
+// 2 |x mod 2 - 1| - 1 of x = 2 h: 1 at even x, -1 at odd x. Exact but for the last subtraction.
+float triangleOfHalf(float h) { return abs(4.0 * fract(h) - 2.0) - 1.0; }
+float triangleWave(float x) { return triangleOfHalf(0.5 * x); }
 
 // sin(pi/2 x) for |x| <= 1: minimax polynomial, off by at most 3.4e-9 before rounding. (Vulkan lets its own sin be off by
 // 2^-11, and only inside [-pi, pi].)
@@ -13,7 +14,8 @@ float sinQuarters(float x) {
     return x * (1.57079629 + s * (-0.64596336 + s * (0.079688481 + s * (-0.0046722279 + s * 1.5082056e-4))));
 }
 
-float sinPi(float x) { return sinQuarters(triangleWave(x - 0.5)); }
+// A quarter of the period is taken off within it: from a large negative x it would be rounded off in part.
+float sinPi(float x) { return sinQuarters(triangleOfHalf(fract(0.5 * x) - 0.25)); }
 float cosPi(float x) { return sinQuarters(triangleWave(x)); }
 
 // Distribution functions of the one-blob kernels, of the distance in kernel widths.

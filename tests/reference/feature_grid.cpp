@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <set>
 
 namespace irradia::reference {
 
@@ -25,6 +27,46 @@ CornerEntry tableEntry(uint32_t resolution, std::size_t dims, uint64_t tableSize
         }
         return (dense ? index : hash) % tableSize;
     };
+}
+
+namespace {
+
+// The last coordinate counts most.
+struct ByReversed {
+    bool operator()(const Corner& a, const Corner& b) const {
+        return std::lexicographical_compare(a.rbegin(), a.rend(), b.rbegin(), b.rend());
+    }
+};
+
+std::set<Corner, ByReversed> touchedCorners(const GridLevel& level,
+                                            const std::vector<std::vector<double>>& points) {
+    std::set<Corner, ByReversed> corners;
+    for (const std::vector<double>& x : points)
+        for (std::size_t which = 0; which < std::size_t{1} << x.size(); ++which) {
+            Corner corner;
+            for (std::size_t d = 0; d < x.size(); ++d)
+                corner.push_back(
+                    static_cast<uint32_t>(std::floor(std::clamp(x[d], 0.0, 1.0) * level.scale + 0.5)) +
+                    (which >> d & 1));
+            corners.insert(corner);
+        }
+    return corners;
+}
+
+} // namespace
+
+CornerEntry touchedEntry(const GridLevel& level, const std::vector<std::vector<double>>& points) {
+    std::map<Corner, uint64_t> entries;
+    uint64_t next = 0;
+    for (const Corner& corner : touchedCorners(level, points)) entries[corner] = next++;
+    return [entries](const Corner& corner) -> std::optional<uint64_t> {
+        const auto found = entries.find(corner);
+        return found == entries.end() ? std::nullopt : std::optional(found->second);
+    };
+}
+
+uint64_t touchedCount(const GridLevel& level, const std::vector<std::vector<double>>& points) {
+    return touchedCorners(level, points).size();
 }
 
 std::vector<GridCorner> cornersAbout(const GridLevel& level, const std::vector<double>& x) {

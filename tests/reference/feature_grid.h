@@ -29,6 +29,12 @@ GridLevel gridLevel(int level, uint32_t base, double perLevelScale);
 // al. 2022, eq. 4, in 32 bits); both modulo the table, which the corner R of a dense level needs.
 CornerEntry tableEntry(uint32_t resolution, std::size_t dims, uint64_t tableSize);
 
+// The corners of the voxels that hold one of the points, and no others, numbered in the order of z, y, x
+// (NGLOD, Takikawa et al. 2021, section 3.2). The points are clamped to [0, 1].
+CornerEntry touchedEntry(const GridLevel& level, const std::vector<std::vector<double>>& points);
+// How many there are.
+uint64_t touchedCount(const GridLevel& level, const std::vector<std::vector<double>>& points);
+
 struct GridCorner {
     uint64_t entry;
     double weight;

@@ -2,7 +2,6 @@
 
 #include "shared/network.h"
 #include "tests/reference/half.h"
-#include "tests/support/kernel_harness.h"
 #include <cstring>
 
 namespace irradia::test {
@@ -41,8 +40,8 @@ double stored(double value, Precision precision) {
     return precision == Precision::Half ? reference::roundToHalf(value) : static_cast<float>(value);
 }
 
-Buffer rowBuffer(const RowFormat& format, uint32_t capacity, const std::vector<double>& rows,
-                 double filling) {
+Buffer rowBuffer(const RowFormat& format, uint32_t capacity, const std::vector<double>& rows, double filling,
+                 Device& device) {
     std::vector<std::byte> bytes(format.bytes(capacity));
     for (size_t i = 0; i < bytes.size() / format.valueBytes(); ++i)
         put(&bytes[i * format.valueBytes()], filling, format.precision);
@@ -51,11 +50,12 @@ Buffer rowBuffer(const RowFormat& format, uint32_t capacity, const std::vector<d
                    value = static_cast<uint32_t>(i % format.width);
         put(&bytes[valueIndex(format, row, value) * format.valueBytes()], rows[i], format.precision);
     }
-    return makeBuffer(validatedDevice(), "rows", bytes);
+    return makeBuffer(device, "rows", bytes);
 }
 
-std::vector<double> downloadRows(const Buffer& buffer, const RowFormat& format, uint32_t count) {
-    const auto bytes = download<std::byte>(validatedDevice(), buffer, buffer.bytes());
+std::vector<double> downloadRows(const Buffer& buffer, const RowFormat& format, uint32_t count,
+                                 Device& device) {
+    const auto bytes = download<std::byte>(device, buffer, buffer.bytes());
     std::vector<double> rows;
     for (uint32_t row = 0; row < count; ++row)
         for (uint32_t value = 0; value < format.width; ++value)

@@ -3,6 +3,7 @@
 
 #include "engine/gpu/buffer.h"
 #include "nrc/config.h"
+#include "tests/support/kernel_harness.h"
 
 namespace irradia::test {
 
@@ -19,9 +20,11 @@ struct RowFormat {
 double stored(double value, Precision precision);
 
 // A buffer of `capacity` rows, the first of which are `rows`; padding and further rows hold `filling`.
-Buffer rowBuffer(const RowFormat& format, uint32_t capacity, const std::vector<double>& rows, double filling);
+Buffer rowBuffer(const RowFormat& format, uint32_t capacity, const std::vector<double>& rows, double filling,
+                 Device& device = validatedDevice());
 
 // The first `count` rows of the buffer.
-std::vector<double> downloadRows(const Buffer& buffer, const RowFormat& format, uint32_t count);
+std::vector<double> downloadRows(const Buffer& buffer, const RowFormat& format, uint32_t count,
+                                 Device& device = validatedDevice());
 
 } // namespace irradia::test

@@ -2,14 +2,14 @@
 
 #include "engine/error.h"
 #include "kernels/nrc.h"
-#include "shared/training.h"
 
 namespace irradia {
 
-Loss::Loss(Device& device, const LossConfig& config, uint32_t outputs, float lossScale)
+Loss::Loss(Device& device, const LossConfig& config, uint32_t outputs, float lossScale, float gradientLimit)
     : config_(config)
     , outputs_(outputs)
-    , lossScale_(lossScale) {
+    , lossScale_(lossScale)
+    , gradientLimit_(gradientLimit) {
     if (config.type == LossType::RelativeL2Luminance && outputs != 3)
         fail(ExitCode::BadData, "loss: RelativeL2Luminance needs the 3 outputs of a colour, not {}", outputs);
     KernelOptions options;
@@ -26,7 +26,8 @@ void Loss::evaluate(FrameGraph& graph, uint32_t capacity, BufferRange state, Buf
                                  static_cast<float>(config_.exponentEnd),
                                  config_.annealStart,
                                  config_.annealEnd,
-                                 lossScale_};
+                                 lossScale_,
+                                 gradientLimit_};
     graph.pass(loss_)
         .readWrite(state)
         .read(results)

@@ -4,17 +4,20 @@
 
 #include "engine/graph/frame_graph.h"
 #include "nrc/config.h"
+#include "shared/training.h"
 
 namespace irradia {
 
 class Loss {
 public:
     // Throws Error(BadData) where a loss by luminance is asked of other than 3 outputs.
-    Loss(Device& device, const LossConfig& config, uint32_t outputs, float lossScale);
+    // gradientLimit: at which the scaled gradients of single results are cut.
+    Loss(Device& device, const LossConfig& config, uint32_t outputs, float lossScale,
+         float gradientLimit = gpu::kGradientLimit);
 
     // Of `capacity` rows at most; how many there are is in `state` (gpu::TrainingState), whose counts it
     // advances. `usable`: a word a row, 0 where the record is to be left out. resultGradient: rows as
-    // `results`, times lossScale, before the mean; rowLoss: a float a row.
+    // `results`, times lossScale and cut, before the mean; rowLoss: a float a row.
     void evaluate(FrameGraph& graph, uint32_t capacity, BufferRange state, BufferRange results,
                   BufferRange targets, BufferRange usable, BufferRange resultGradient,
                   BufferRange rowLoss) const;
@@ -24,7 +27,7 @@ public:
 private:
     LossConfig config_;
     uint32_t outputs_;
-    float lossScale_;
+    float lossScale_, gradientLimit_;
     Kernel loss_, endBatch_;
 };
 

@@ -17,6 +17,9 @@ namespace {
 // precision.
 constexpr float kRecordLimit = 1e8f;
 constexpr float kRecordLimitHalf = 6e4f;
+// Of a result's gradient where layers keep theirs in half precision: leaves them a factor of 16 to grow by,
+// since one that overflows spoils the gradient of all weights it meets.
+constexpr float kGradientLimitHalf = 4096.0f;
 
 static_assert(offsetof(gpu::TrainingState, batchRows) == 4 * gpu::kBatchRowsWord);
 static_assert(offsetof(gpu::TrainingState, gradientScale) == 4 * gpu::kGradientScaleWord);
@@ -25,9 +28,9 @@ uint32_t padded(uint32_t rows) {
     return (std::max(rows, 1u) + gpu::kRowPadding - 1) / gpu::kRowPadding * gpu::kRowPadding;
 }
 
-float lossScaleOf(const ModelConfig& config) {
-    return config.network.precision == Precision::Half ? static_cast<float>(config.optimizer.lossScale)
-                                                       : 1.0f;
+Loss makeLoss(Device& device, const ModelConfig& config, uint32_t outputs) {
+    if (config.network.precision == Precision::Float) return {device, config.loss, outputs, 1.0f};
+    return {device, config.loss, outputs, static_cast<float>(config.optimizer.lossScale), kGradientLimitHalf};
 }
 
 // What the passes of one batch hand on; reused from batch to batch.
@@ -61,7 +64,7 @@ struct Trainer::State {
         , options(o)
         , encoding(d, c.encoding, inputs, c.network.precision, o.touched)
         , network(d, c.network, encoding.width(), outputs)
-        , loss(d, c.loss, outputs, lossScaleOf(c))
+        , loss(makeLoss(d, c, outputs))
         , optimizer(d, c.optimizer)
         , weights(d, "weights", network.weightCount(), c.optimizer.learningRate, c.optimizer.l2, false)
         , features(d, "features", encoding.featureCount(), c.optimizer.gridLearningRate, 0.0, true)
@@ -135,7 +138,7 @@ void Trainer::State::gather(FrameGraph& graph, const Records& records, uint32_t 
     const gpu::BeginBatchParams begin{records.rows.index, records.rows.capacity, index, count,
                                       static_cast<uint32_t>(options.seed ^ (options.seed >> 32))};
     graph.pass(beginBatch).readWrite(state).read(records.rows.counters).push(begin).dispatchGroups(1);
-    const gpu::GatherParams params{encoding.inputQuads(), network.outputQuads(),
+    const gpu::GatherParams params{encoding.inputs(), network.outputs(),
                                    config.network.precision == Precision::Half ? kRecordLimitHalf
                                                                                : kRecordLimit};
     graph.pass(gatherRecords)

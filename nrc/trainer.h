@@ -24,7 +24,8 @@ struct TrainerOptions {
 // Which parameters a prediction uses.
 enum class Weights { Ema, Raw };
 
-// Inputs: rows of ceil(inputs / 4) single-precision quads; targets: rows of ceil(outputs / 4).
+// Inputs: rows of ceil(inputs / 4) single-precision quads; targets: rows of ceil(outputs / 4). What pads the
+// last quad is not used.
 struct Records {
     RowCount rows;
     BufferRange inputs;
@@ -34,7 +35,7 @@ struct Records {
 // Counted since the start (or the load).
 struct TrainingCounts {
     uint32_t steps = 0;             // that changed the parameters
-    uint32_t droppedRecords = 0;    // not finite, too large, or with a prediction that was not finite
+    uint32_t droppedRecords = 0;    // not finite or too large, or with a prediction or loss that is
     uint32_t clippedSteps = 0;      // whose gradient was longer than clip_norm
     uint32_t damagedParameters = 0; // weights, moments or averages found not finite, and set to zero
     float loss = 0;                 // mean of the last step, 0 before the first

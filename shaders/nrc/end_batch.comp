@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The batch's mean loss, and the factor that makes gradients those of the mean. One workgroup, sums in a fixed order.
+// The batch's mean loss, which a batch without a usable record leaves as it is, and the factor that makes gradients those
+// of the mean. One workgroup, sums in a fixed order.
 #include "lib/kernel.glsl"
 #include "nrc/state.glsl"
 
@@ -20,6 +21,6 @@ void main() {
     float total = 0.0;
     for (uint i = 0u; i < gl_WorkGroupSize.x; ++i) total += sums[i];
     float count = float(state.validRecords) * float(params.outputs);
-    state.loss = total / max(count, 1.0);
+    if (state.validRecords > 0u) state.loss = total / count;
     state.gradientScale = 1.0 / (max(count, 1.0) * params.lossScale);
 }

@@ -14,12 +14,17 @@ RECORDS_WRITE(4, batchTargets);
 WORDS_WRITE(5, usable); // 1 or 0 a row
 layout(push_constant) uniform Push { GatherParams params; };
 
+uint inputQuads() { return (params.inputs + 3u) / 4u; }
+uint targetQuads() { return (params.targets + 3u) / 4u; }
+
+bool isUsable(uvec4 quad, bvec4 exists) { return isWithin(mix(vec4(0.0), uintBitsToFloat(quad), exists), params.limit); }
+
 bool isUsable(uint record) {
     bool usableSoFar = true;
-    for (uint q = 0u; q < params.inputQuads; ++q)
-        usableSoFar = usableSoFar && isWithin(uintBitsToFloat(loadRecord(inputs, quadIndex(record, q, params.inputQuads))), params.limit);
-    for (uint q = 0u; q < params.targetQuads; ++q)
-        usableSoFar = usableSoFar && isWithin(uintBitsToFloat(loadRecord(targets, quadIndex(record, q, params.targetQuads))), params.limit);
+    for (uint q = 0u; q < inputQuads(); ++q)
+        usableSoFar = usableSoFar && isUsable(loadRecord(inputs, quadIndex(record, q, inputQuads())), existing(q, params.inputs));
+    for (uint q = 0u; q < targetQuads(); ++q)
+        usableSoFar = usableSoFar && isUsable(loadRecord(targets, quadIndex(record, q, targetQuads())), existing(q, params.targets));
     return usableSoFar;
 }
 
@@ -28,10 +33,10 @@ void main() {
     if (row >= state.batchRows) return;
     uint record = permute(state.batchFirst + row, state.records, state.permutationKey);
     bool use = isUsable(record);
-    for (uint q = 0u; q < params.inputQuads; ++q)
-        storeRecord(batchInputs, quadIndex(row, q, params.inputQuads), use ? loadRecord(inputs, quadIndex(record, q, params.inputQuads)) : uvec4(0u));
-    for (uint q = 0u; q < params.targetQuads; ++q)
-        storeRecord(batchTargets, quadIndex(row, q, params.targetQuads), use ? loadRecord(targets, quadIndex(record, q, params.targetQuads)) : uvec4(0u));
+    for (uint q = 0u; q < inputQuads(); ++q)
+        storeRecord(batchInputs, quadIndex(row, q, inputQuads()), use ? loadRecord(inputs, quadIndex(record, q, inputQuads())) : uvec4(0u));
+    for (uint q = 0u; q < targetQuads(); ++q)
+        storeRecord(batchTargets, quadIndex(row, q, targetQuads()), use ? loadRecord(targets, quadIndex(record, q, targetQuads())) : uvec4(0u));
     storeWord(usable, row, use ? 1u : 0u);
     if (!use) atomicAdd(state.droppedRecords, 1u);
 }

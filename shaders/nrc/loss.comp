@@ -36,6 +36,8 @@ vec4 denominator(vec4 prediction) {
     return e == 1.0 ? d : exp2(e * log2(d));
 }
 
+vec4 handedOn(vec4 gradient) { return clamp(params.lossScale * gradient, -params.gradientLimit, params.gradientLimit); }
+
 void main() {
     uint row = gl_GlobalInvocationID.x;
     if (row >= state.batchRows) return;
@@ -43,18 +45,18 @@ void main() {
     float loss = 0.0;
     bool finite = true;
     [[unroll]] for (uint q = 0u; q < kQuads; ++q) {
-        vec4 exists = vec4(lessThan(uvec4(q * 4u) + uvec4(0u, 1u, 2u, 3u), uvec4(kOutputs)));
-        vec4 prediction = uintBitsToFloat(loadRecord(results, quadIndex(row, q, kQuads)));
-        vec4 difference = exists * (prediction - uintBitsToFloat(loadRecord(targets, quadIndex(row, q, kQuads))));
+        bvec4 exists = existing(q, kOutputs);
+        vec4 prediction = mix(vec4(0.0), uintBitsToFloat(loadRecord(results, quadIndex(row, q, kQuads))), exists);
+        vec4 difference = mix(vec4(0.0), prediction - uintBitsToFloat(loadRecord(targets, quadIndex(row, q, kQuads))), exists);
         vec4 d = denominator(prediction);
         gradient[q] = 2.0 * difference / d;
         loss += dot(difference, difference / d);
-        finite = finite && isWithin(gradient[q], kGradientLimit);
+        finite = finite && isWithin(prediction, kPredictionLimit) && isWithin(gradient[q], kGradientLimit);
     }
     bool usableRow = loadWord(usable, row) != 0u;
     bool use = usableRow && finite && loss <= kGradientLimit;
     [[unroll]] for (uint q = 0u; q < kQuads; ++q)
-        storeRecord(resultGradient, quadIndex(row, q, kQuads), floatBitsToUint(use ? params.lossScale * gradient[q] : vec4(0.0)));
+        storeRecord(resultGradient, quadIndex(row, q, kQuads), floatBitsToUint(use ? handedOn(gradient[q]) : vec4(0.0)));
     storeWord(rowLoss, row, floatBitsToUint(use ? loss : 0.0));
     if (use) atomicAdd(state.validRecords, 1u);
     if (usableRow && !use) atomicAdd(state.droppedRecords, 1u);

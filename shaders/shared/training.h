@@ -8,7 +8,7 @@ SHARED_BEGIN
 struct TrainingState {
     // Since the start.
     uint steps;             // that changed the parameters
-    uint droppedRecords;    // not finite, too large, or with a prediction that was not finite
+    uint droppedRecords;    // not finite or too large, or with a prediction or loss that is
     uint clippedSteps;      // whose gradient was longer than the clip
     uint damagedParameters; // found not finite or beyond kParameterLimit, and set to zero
     float learningRateFactor; // of the decay schedule
@@ -35,6 +35,7 @@ SHARED_CONST uint kGradientScaleWord = 15u;
 
 // A value beyond its limit counts as not finite.
 SHARED_CONST float kParameterLimit = 1e6f;
+SHARED_CONST float kPredictionLimit = 1e15f; // its square, of which losses are relative, stays finite
 SHARED_CONST float kGradientLimit = 1e15f; // its square, summed over all parameters, stays finite
 SHARED_CONST float kMomentLimit = 1e30f;
 
@@ -47,8 +48,8 @@ struct BeginBatchParams {
 };
 
 struct GatherParams {
-    uint inputQuads;
-    uint targetQuads;
+    uint inputs; // of a record
+    uint targets;
     float limit; // of a record's values
 };
 
@@ -63,6 +64,7 @@ struct LossParams {
     uint annealStart;
     uint annealEnd;
     float lossScale;
+    float gradientLimit; // of a result's gradient, scaled
 };
 
 struct EndBatchParams {

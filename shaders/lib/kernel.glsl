@@ -11,35 +11,30 @@ layout(constant_id = 1) const uint kSubgroupSize = 8;
 // RECORDS_READ(binding, name): loadRecord(name, index) -> uvec4.
 // RECORDS_WRITE(binding, name): storeRecord(name, index, uvec4).
 // WORDS_WRITE(binding, name): storeWord(name, index, uint); WORDS_READ: loadWord(name, index) -> uint.
-// HALVES_READ(binding, name): loadHalves(name, index) -> vec4 of four 16-bit floats; HALVES_WRITE: storeHalves.
+// HALVES_READ(binding, name): loadHalves(name, index) -> vec4 of four 16-bit floats.
 #ifdef RECORDS_IN_TEXEL
 #define RECORDS_READ(slot, name) layout(set = 0, binding = slot, rgba32ui) readonly uniform uimageBuffer name
 #define RECORDS_WRITE(slot, name) layout(set = 0, binding = slot, rgba32ui) writeonly uniform uimageBuffer name
 #define WORDS_READ(slot, name) layout(set = 0, binding = slot, r32ui) readonly uniform uimageBuffer name
 #define WORDS_WRITE(slot, name) layout(set = 0, binding = slot, r32ui) writeonly uniform uimageBuffer name
 #define HALVES_READ(slot, name) layout(set = 0, binding = slot, rgba16f) readonly uniform imageBuffer name
-#define HALVES_WRITE(slot, name) layout(set = 0, binding = slot, rgba16f) writeonly uniform imageBuffer name
 #define loadRecord(name, index) imageLoad(name, int(index))
 #define storeRecord(name, index, value) imageStore(name, int(index), value)
 #define loadWord(name, index) imageLoad(name, int(index)).x
 #define storeWord(name, index, value) imageStore(name, int(index), uvec4(value))
 #define loadHalves(name, index) imageLoad(name, int(index))
-#define storeHalves(name, index, value) imageStore(name, int(index), value)
 #else
 #define RECORDS_READ(slot, name) layout(set = 0, binding = slot, std430) readonly buffer name##Records { uvec4 name[]; }
 #define RECORDS_WRITE(slot, name) layout(set = 0, binding = slot, std430) writeonly buffer name##Records { uvec4 name[]; }
 #define WORDS_READ(slot, name) layout(set = 0, binding = slot, std430) readonly buffer name##Words { uint name[]; }
 #define WORDS_WRITE(slot, name) layout(set = 0, binding = slot, std430) writeonly buffer name##Words { uint name[]; }
 #define HALVES_READ(slot, name) layout(set = 0, binding = slot, std430) readonly buffer name##Halves { uvec2 name[]; }
-#define HALVES_WRITE(slot, name) layout(set = 0, binding = slot, std430) writeonly buffer name##Halves { uvec2 name[]; }
 #define loadRecord(name, index) name[index]
 #define storeRecord(name, index, value) name[index] = value
 #define loadWord(name, index) name[index]
 #define storeWord(name, index, value) name[index] = value
 #define loadHalves(name, index) unpackHalves(name[index])
-#define storeHalves(name, index, value) name[index] = packHalves(value)
 vec4 unpackHalves(uvec2 v) { return vec4(unpackHalf2x16(v.x), unpackHalf2x16(v.y)); }
-uvec2 packHalves(vec4 v) { return uvec2(packHalf2x16(v.xy), packHalf2x16(v.zw)); }
 #endif
 
 // COUNTERS_READ(binding, name) / COUNTERS(binding, name): a plain storage buffer of uints.

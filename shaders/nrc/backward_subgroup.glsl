@@ -29,23 +29,18 @@ void beginWithResults(uint row) {
         }
 }
 
-void finishBlock(uint row, uint layer, uint firstOutput) {
+void finishBlock(uint row, uint layer, uint quad) {
+    uint column = layer * kWidthQuads + quad;
     [[unroll]] for (uint r = 0u; r < kRows; ++r)
-        [[unroll]] for (uint j = 0u; j < kBlockQuads; ++j) {
-            uint rowR = row + r * kSubgroupSize;
-            uint quad = layer * kWidthQuads + firstOutput / 4u + j;
-            vec4 activation = loadQuad(activations, quadIndex(rowR, quad, kActivationQuads));
-            block[r * kBlockQuads + j] *= reluDerivative(activation);
-            storeQuad(layerGradients, quadIndex(rowR, quad, kGradientQuads), block[r * kBlockQuads + j]);
-        }
-    appendBlock(firstOutput);
+        block[r] *= reluDerivative(loadQuad(activations, quadIndex(row + r * kSubgroupSize, column, kActivationQuads)));
+    appendBlock(quad);
+    [[unroll]] for (uint r = 0u; r < kRows; ++r)
+        storeQuad(layerGradients, quadIndex(row + r * kSubgroupSize, column, kGradientQuads), block[r]);
 }
 
-void storeInputGradient(uint row, uint firstInput) {
+void storeInputGradient(uint row, uint quad) {
     [[unroll]] for (uint r = 0u; r < kRows; ++r)
-        [[unroll]] for (uint j = 0u; j < kBlockQuads; ++j)
-            storeQuad(inputGradient, quadIndex(row + r * kSubgroupSize, firstInput / 4u + j, kInputQuads),
-                      block[r * kBlockQuads + j]);
+        storeQuad(inputGradient, quadIndex(row + r * kSubgroupSize, quad, kInputQuads), block[r]);
 }
 
 void main() {
@@ -53,22 +48,22 @@ void main() {
     if (row - gl_SubgroupInvocationID >= counters[params.counter]) return;
 
     beginWithResults(row);
-    for (uint first = 0u; first < kWidthQuads * 4u; first += kBlock) {
-        multiplyBlock(kOutputTransposed, kOutputQuads, first);
-        finishBlock(row, kHiddenLayers - 1u, first);
+    for (uint quad = 0u; quad < kWidthQuads; ++quad) {
+        multiplyBlock(kOutputTransposed, kOutputQuads, quad);
+        finishBlock(row, kHiddenLayers - 1u, quad);
     }
-    nextLayer(kWidthQuads);
-    for (uint layer = kHiddenLayers - 1u; layer > 0u; --layer) {
-        uint matrix = kTransposed + kHiddenMatrices + (layer - 1u) * kHiddenMatrixQuads;
-        for (uint first = 0u; first < kWidthQuads * 4u; first += kBlock) {
-            multiplyBlock(matrix, kWidthQuads, first);
-            finishBlock(row, layer - 1u, first);
+    // From the last hidden matrix down to the first, or to that of the inputs.
+    for (uint step = 0u; step < kHiddenLayers - (kInputGradient ? 0u : 1u); ++step) {
+        nextLayer();
+        uint layer = kHiddenLayers - 1u - step;
+        bool isHidden = layer > 0u;
+        uint matrix = isHidden ? kHiddenMatrices + (layer - 1u) * kHiddenMatrixQuads : kInputMatrix;
+        for (uint quad = 0u; quad < (isHidden ? kWidthQuads : kInputQuads); ++quad) {
+            multiplyBlock(kTransposed + matrix, kWidthQuads, quad);
+            if (isHidden)
+                finishBlock(row, layer - 1u, quad);
+            else if (kInputGradient)
+                storeInputGradient(row, quad);
         }
-        nextLayer(kWidthQuads);
     }
-    if (kInputGradient)
-        for (uint first = 0u; first < kInputQuads * 4u; first += kBlock) {
-            multiplyBlock(kTransposed + kInputMatrix, kWidthQuads, first);
-            storeInputGradient(row, first);
-        }
 }

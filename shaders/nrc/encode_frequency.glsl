@@ -6,7 +6,7 @@
 layout(constant_id = 8) const uint kFrequencies = 12u;
 layout(constant_id = 9) const bool kTriangle = true;
 
-ENCODED_WRITE(2);
+QUADS_WRITE(2, encoded);
 
 const uint kValues = kDims * kFrequencies * (kTriangle ? 1u : 2u);
 

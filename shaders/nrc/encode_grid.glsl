@@ -4,7 +4,7 @@
 
 RECORDS_READ(3, features);
 WORDS_READ(4, entries);
-ENCODED_WRITE(5);
+QUADS_WRITE(5, encoded);
 
 #include "nrc/grid.glsl"
 

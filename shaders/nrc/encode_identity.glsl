@@ -4,7 +4,7 @@
 layout(constant_id = 8) const float kScale = 1.0;
 layout(constant_id = 9) const float kOffset = 0.0;
 
-ENCODED_WRITE(2);
+QUADS_WRITE(2, encoded);
 
 void main() {
     uint row = gl_GlobalInvocationID.x;

@@ -6,7 +6,7 @@
 layout(constant_id = 8) const uint kBins = 4u;
 layout(constant_id = 9) const bool kGaussian = false;
 
-ENCODED_WRITE(2);
+QUADS_WRITE(2, encoded);
 
 const uint kValues = kDims * kBins;
 

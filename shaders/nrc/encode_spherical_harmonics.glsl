@@ -4,7 +4,7 @@
 
 layout(constant_id = 8) const uint kDegree = 4u;
 
-ENCODED_WRITE(2);
+QUADS_WRITE(2, encoded);
 
 void main() {
     uint row = gl_GlobalInvocationID.x;

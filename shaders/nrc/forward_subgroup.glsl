@@ -15,19 +15,22 @@ layout(push_constant) uniform Push { RowsParams params; };
 
 #include "nrc/mlp_subgroup.glsl"
 
-void keep(uint row, uint layer, uint firstOutput) {
+void keep(uint row, uint layer, uint quad) {
 #ifdef KEEP_ACTIVATIONS
     [[unroll]] for (uint r = 0u; r < kRows; ++r)
-        [[unroll]] for (uint j = 0u; j < kBlockQuads; ++j)
-            storeQuad(activations, quadIndex(row + r * kSubgroupSize, layer * kWidthQuads + firstOutput / 4u + j, kActivationQuads),
-                      block[r * kBlockQuads + j]);
+        storeQuad(activations, quadIndex(row + r * kSubgroupSize, layer * kWidthQuads + quad, kActivationQuads), block[r]);
 #endif
 }
 
-void finishBlock(uint row, uint layer, uint firstOutput) {
-    [[unroll]] for (uint k = 0u; k < kRows * kBlockQuads; ++k) block[k] = relu(block[k]);
-    keep(row, layer, firstOutput);
-    appendBlock(firstOutput);
+void finishBlock(uint row, uint layer, uint quad) {
+    [[unroll]] for (uint r = 0u; r < kRows; ++r) block[r] = relu(block[r]);
+    keep(row, layer, quad);
+    appendBlock(quad);
+}
+
+void storeResults(uint row, uint quad) {
+    [[unroll]] for (uint r = 0u; r < kRows; ++r)
+        storeRecord(results, quadIndex(row + r * kSubgroupSize, quad, kOutputQuads), floatBitsToUint(activateOutput(block[r])));
 }
 
 void main() {
@@ -38,25 +41,21 @@ void main() {
         [[unroll]] for (uint i = 0u; i < kInputQuads; ++i)
             layerIn[r * kLargestQuads + i] = loadQuad(encoded, quadIndex(row + r * kSubgroupSize, i, kInputQuads));
 
-    for (uint first = 0u; first < kWidthQuads * 4u; first += kBlock) {
-        multiplyBlock(kInputMatrix, kInputQuads, first);
-        finishBlock(row, 0u, first);
+    for (uint quad = 0u; quad < kWidthQuads; ++quad) {
+        multiplyBlock(kInputMatrix, kInputQuads, quad);
+        finishBlock(row, 0u, quad);
     }
-    nextLayer(kWidthQuads);
-    for (uint layer = 1u; layer < kHiddenLayers; ++layer) {
-        uint matrix = kHiddenMatrices + (layer - 1u) * kHiddenMatrixQuads;
-        for (uint first = 0u; first < kWidthQuads * 4u; first += kBlock) {
-            multiplyBlock(matrix, kWidthQuads, first);
-            finishBlock(row, layer, first);
+    // The last one is the output layer, whose matrix follows the hidden ones: unrolled a second time, that code is half
+    // as long to compile again.
+    for (uint layer = 1u; layer <= kHiddenLayers; ++layer) {
+        nextLayer();
+        bool isHidden = layer < kHiddenLayers;
+        for (uint quad = 0u; quad < (isHidden ? kWidthQuads : kOutputQuads); ++quad) {
+            multiplyBlock(kHiddenMatrices + (layer - 1u) * kHiddenMatrixQuads, kWidthQuads, quad);
+            if (isHidden)
+                finishBlock(row, layer, quad);
+            else
+                storeResults(row, quad);
         }
-        nextLayer(kWidthQuads);
-    }
-    for (uint first = 0u; first < kOutputQuads * 4u; first += kBlock) {
-        multiplyBlock(kOutputMatrix, kWidthQuads, first);
-        [[unroll]] for (uint r = 0u; r < kRows; ++r)
-            [[unroll]] for (uint j = 0u; j < kBlockQuads; ++j)
-                if (first / 4u + j < kOutputQuads)
-                    storeRecord(results, quadIndex(row + r * kSubgroupSize, first / 4u + j, kOutputQuads),
-                                floatBitsToUint(activateOutput(block[r * kBlockQuads + j])));
     }
 }

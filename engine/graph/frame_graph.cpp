@@ -21,7 +21,7 @@ PassRecord& FrameGraph::State::add(const std::string& name) {
     if (!passes.empty() && passes.back().command == PassRecord::Command::None)
         fail(ExitCode::Internal, "pass {}: is declared but never dispatched", passes.back().name);
     PassRecord& pass = passes.emplace_back();
-    pass.name = name;
+    pass.name = section.empty() ? name : section + "/" + name;
     pass.cutBefore = cutNext;
     cutNext = false;
     return pass;
@@ -75,6 +75,10 @@ void FrameGraph::copy(BufferRange from, BufferRange to) {
     pass.command = PassRecord::Command::Copy;
     pass.argument = from;
     pass.target = to;
+}
+
+void FrameGraph::section(const std::string& name) {
+    state_->section = name;
 }
 
 void FrameGraph::cut() {

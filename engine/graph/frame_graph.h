@@ -57,6 +57,9 @@ public:
     void fill(BufferRange range, uint32_t value);
     void copy(BufferRange from, BufferRange to);
 
+    // What passes that follow belong to: their names become "NAME/PASS"; empty = nothing.
+    void section(const std::string& name);
+
     // A place where a slice may end. execute() submits as many passes as took about 100 ms when they last ran
     // (which changes no result) and waits for each submission, so that no watchdog sees a long one.
     void cut();

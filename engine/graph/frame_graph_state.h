@@ -33,6 +33,7 @@ struct FrameGraph::State {
     double timeoutSeconds = 60;
     std::vector<PassRecord> passes;
     bool cutNext = false;
+    std::string section; // of the passes to come
     DescriptorSets sets;
     Timestamps timestamps;
     Progress progress;

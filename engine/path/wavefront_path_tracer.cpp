@@ -16,12 +16,6 @@ namespace {
 constexpr uint32_t kCpuWave = 1u << 15;
 constexpr uint32_t kGpuWave = 1u << 20;
 
-uint32_t waveSize(const Device& device, const PathTracerOptions& options) {
-    const uint64_t pixels = uint64_t(options.width) * options.height;
-    const uint64_t wanted = options.waveSize != 0 ? options.waveSize : (device.isCpu() ? kCpuWave : kGpuWave);
-    return static_cast<uint32_t>(std::min(pixels, wanted));
-}
-
 // What follows from the scene's needs: constants of every kernel that includes path/needs.glsl.
 KernelOptions fitted(const SceneNeeds& needs) {
     KernelOptions options;
@@ -41,16 +35,37 @@ Pass& readSurfaces(Pass& pass, const GpuScene& scene) {
         .read(scene.texels);
 }
 
+// What path/training_light.glsl binds.
+Pass& gatherForTraining(Pass& pass, const Buffer& pathStates, const CachePaths& cache) {
+    return pass.readWrite(pathStates).readWrite(cache.trainingPaths).readWrite(cache.trainingVertices);
+}
+
+bool trains(const CachePaths* cache) {
+    return cache && cache->rule.tilesX > 0;
+}
+
+// scatter's, where there is a cache.
+struct CachedBounceParams {
+    gpu::BounceParams bounce;
+    gpu::CacheRule rule;
+};
+
 } // namespace
+
+uint32_t WavefrontPathTracer::largestWave(const Device& device, const PathTracerOptions& options) {
+    const uint64_t pixels = uint64_t(options.width) * options.height;
+    const uint64_t wanted = options.waveSize != 0 ? options.waveSize : (device.isCpu() ? kCpuWave : kGpuWave);
+    return static_cast<uint32_t>(std::min(pixels, wanted));
+}
 
 std::vector<Device::PlannedBuffer> WavefrontPathTracer::plannedBuffers(const Device& device,
                                                                        const PathTracerOptions& options) {
-    const uint64_t wave = waveSize(device, options);
+    const uint64_t wave = largestWave(device, options);
     const uint64_t pixels = uint64_t(options.width) * options.height;
     return {{"rays", 2 * wave * gpu::kRayRecords * 16},
             {"hits", wave * 16},
             {"shadow rays", wave * (gpu::kShadowRayRecords * 16 + 4)},
-            {"path radiance", wave * 16},
+            {"path radiance", wave * (options.cached ? 32 : 16)},
             {"film", pixels * 16 * (gpu::kFilmVectors + (options.surfaces ? gpu::kSurfaceVectors : 0))}};
 }
 
@@ -60,17 +75,23 @@ WavefrontPathTracer::WavefrontPathTracer(Device& device, const GpuScene& scene,
     , scene_(scene)
     , options_(options)
     , graph_(device, profiler)
-    , waveSize_(waveSize(device, options)) {
+    , waveSize_(largestWave(device, options)) {
     const KernelOptions fit = fitted(scene.needs);
     kernels_.generateCameraRays = Kernel(device, kernels::generate_camera_rays);
     kernels_.beginBounce = Kernel(device, kernels::begin_bounce);
     kernels_.intersectClosest = Kernel(device, kernels::intersect_closest);
-    kernels_.handleEscapedRays = Kernel(device, kernels::handle_escaped_rays, fit);
-    kernels_.handleEmissiveHits = Kernel(device, kernels::handle_emissive_hits, fit);
+    const auto either = [&](const KernelSource& plain, const KernelSource& cached) -> const KernelSource& {
+        return options.cached ? cached : plain;
+    };
+    kernels_.handleEscapedRays =
+        Kernel(device, either(kernels::handle_escaped_rays, kernels::handle_escaped_rays_cached), fit);
+    kernels_.handleEmissiveHits =
+        Kernel(device, either(kernels::handle_emissive_hits, kernels::handle_emissive_hits_cached), fit);
     kernels_.recordSurfaces = Kernel(device, kernels::record_surfaces, fit);
-    kernels_.scatter = Kernel(device, kernels::scatter, fit);
+    kernels_.scatter = Kernel(device, either(kernels::scatter, kernels::scatter_cached), fit);
     kernels_.intersectShadow = Kernel(device, kernels::intersect_shadow);
-    kernels_.addDirectLight = Kernel(device, kernels::add_direct_light);
+    kernels_.addDirectLight =
+        Kernel(device, either(kernels::add_direct_light, kernels::add_direct_light_cached));
     kernels_.updateFilm = Kernel(device, kernels::update_film);
 
     const uint64_t wave = waveSize_;
@@ -79,6 +100,7 @@ WavefrontPathTracer::WavefrontPathTracer(Device& device, const GpuScene& scene,
     hits_ = Buffer(device, "hits", wave * 16);
     shadowRays_ = Buffer(device, "shadow ray queue", wave * gpu::kShadowRayRecords * 16);
     visibility_ = Buffer(device, "visibility", wave * 4);
+    pathStates_ = Buffer(device, "path states", options.cached ? wave * 16 : 16);
     radiance_ = Buffer(device, "path radiance", wave * 16);
     counters_ = Buffer(device, "queue counters", gpu::kCounters * 4);
     arguments_ = Buffer(device, "dispatch arguments", gpu::kDispatchArguments * 4);
@@ -87,23 +109,46 @@ WavefrontPathTracer::WavefrontPathTracer(Device& device, const GpuScene& scene,
 }
 
 void WavefrontPathTracer::renderFrame(const Camera& camera, uint32_t index) {
-    graph_.fill(counters_, 0);
-    const uint32_t pixels = options_.width * options_.height;
-    for (uint32_t first = 0; first < pixels; first += waveSize_) {
-        const uint32_t count = std::min(waveSize_, pixels - first);
-        for (uint32_t k = 0; k < options_.samplesPerFrame; ++k)
-            traceWave(camera, first, count, index * options_.samplesPerFrame + k, k == 0);
-        const gpu::FilmParams film{first, count, frames_,
-                                   1.0f / static_cast<float>(options_.samplesPerFrame)};
-        graph_.pass(kernels_.updateFilm).read(radiance_).readWrite(film_).push(film).dispatch(count);
-        graph_.cut();
+    beginFrame();
+    for (const Wave& wave : waves()) {
+        for (uint32_t k = 0; k < options_.samplesPerFrame; ++k) traceWave(camera, wave, index, k);
+        addToFilm(wave);
     }
     graph_.execute();
+    endFrame();
+}
+
+void WavefrontPathTracer::beginFrame() {
+    graph_.fill(counters_, 0);
+}
+
+std::vector<Wave> WavefrontPathTracer::waves() const {
+    const uint32_t pixels = options_.width * options_.height;
+    std::vector<Wave> waves;
+    for (uint32_t first = 0; first < pixels; first += waveSize_)
+        waves.push_back({first, std::min(waveSize_, pixels - first)});
+    return waves;
+}
+
+void WavefrontPathTracer::addToFilm(const Wave& wave) {
+    const gpu::FilmParams film{wave.firstPixel, wave.paths, frames_,
+                               1.0f / static_cast<float>(options_.samplesPerFrame)};
+    graph_.pass(kernels_.updateFilm).read(radiance_).readWrite(film_).push(film).dispatch(wave.paths);
+    graph_.cut();
+}
+
+void WavefrontPathTracer::endFrame() {
     ++frames_;
 }
 
-void WavefrontPathTracer::traceWave(const Camera& camera, uint32_t firstPixel, uint32_t pathCount,
-                                    uint32_t sampleIndex, bool firstSample) {
+void WavefrontPathTracer::forgetFilm() {
+    if (options_.surfaces) graph_.fill(surfaces_, 0);
+    frames_ = 0;
+}
+
+void WavefrontPathTracer::traceWave(const Camera& camera, const Wave& wave, uint32_t frame, uint32_t sample,
+                                    const CachePaths* cache) {
+    const uint32_t sampleIndex = frame * options_.samplesPerFrame + sample;
     const float scale = std::tan(0.5f * camera.verticalFov);
     const float aspect = static_cast<float>(options_.width) / static_cast<float>(options_.height);
     const glm::vec3 right = glm::normalize(glm::cross(camera.forward, camera.up));
@@ -113,31 +158,33 @@ void WavefrontPathTracer::traceWave(const Camera& camera, uint32_t firstPixel, u
                                    glm::vec4(camera.up * scale, 0),
                                    options_.width,
                                    options_.height,
-                                   firstPixel,
-                                   pathCount,
+                                   wave.firstPixel,
+                                   wave.paths,
                                    sampleIndex,
                                    options_.seed,
-                                   firstSample ? 1u : 0u,
+                                   sample == 0 ? 1u : 0u,
                                    0};
     graph_.pass(kernels_.generateCameraRays)
         .write(rays_[0])
         .write(radiance_)
         .readWrite(counters_)
         .push(params)
-        .dispatch(pathCount);
-    for (uint32_t depth = 0; depth <= options_.maxBounces + 1; ++depth) {
-        bounce(depth, firstPixel, sampleIndex);
-        if (depth == 0 && options_.surfaces) recordSurfaces(camera, firstPixel, pathCount);
+        .dispatch(wave.paths);
+    const uint32_t last = trains(cache) ? std::max(deepestRay(), cache->rule.lastDepth) : deepestRay();
+    for (uint32_t depth = 0; depth <= last; ++depth) {
+        bounce(depth, wave, sampleIndex, cache);
+        if (depth == 0 && options_.surfaces) recordSurfaces(camera, wave);
     }
 }
 
-void WavefrontPathTracer::bounce(uint32_t depth, uint32_t firstPixel, uint32_t sampleIndex) {
+void WavefrontPathTracer::bounce(uint32_t depth, const Wave& wave, uint32_t sampleIndex,
+                                 const CachePaths* cache) {
     const uint32_t parity = depth & 1u;
     const Buffer& rays = rays_[parity];
     const BufferRange traceArguments(arguments_, gpu::kTraceArguments * 4, 12);
     const BufferRange itemArguments(arguments_, gpu::kItemArguments * 4, 12);
     const gpu::BounceParams params{depth,
-                                   firstPixel,
+                                   wave.firstPixel,
                                    sampleIndex,
                                    options_.seed,
                                    scene_.lightCount,
@@ -163,38 +210,24 @@ void WavefrontPathTracer::bounce(uint32_t depth, uint32_t firstPixel, uint32_t s
         .write(hits_)
         .push(gpu::TraceParams{gpu::kRayCounter + parity, scene_.bvhRoot})
         .dispatchIndirect(traceArguments);
-    if (scene_.needs.environment)
-        graph_.pass(kernels_.handleEscapedRays)
-            .read(rays)
-            .read(hits_)
-            .read(counters_)
-            .readWrite(radiance_)
-            .read(scene_.environment)
-            .push(params)
-            .dispatchIndirect(itemArguments);
-    if (scene_.needs.emitters)
-        readSurfaces(graph_.pass(kernels_.handleEmissiveHits)
-                         .read(rays)
-                         .read(hits_)
-                         .read(counters_)
-                         .readWrite(radiance_),
-                     scene_)
-            .read(scene_.lights)
-            .push(params)
-            .dispatchIndirect(itemArguments);
+    if (scene_.needs.environment) {
+        Pass pass = graph_.pass(kernels_.handleEscapedRays);
+        pass.read(rays).read(hits_).read(counters_).readWrite(radiance_).read(scene_.environment);
+        if (cache) gatherForTraining(pass, pathStates_, *cache);
+        pass.push(params).dispatchIndirect(itemArguments);
+    }
+    if (scene_.needs.emitters) {
+        Pass pass = graph_.pass(kernels_.handleEmissiveHits);
+        pass.read(rays).read(hits_).read(counters_).readWrite(radiance_);
+        readSurfaces(pass, scene_).read(scene_.lights);
+        if (cache) gatherForTraining(pass, pathStates_, *cache);
+        pass.push(params).dispatchIndirect(itemArguments);
+    }
     graph_.cut();
-    // The last ray only adds emission.
-    if (depth == options_.maxBounces + 1 || scene_.triangles == 0) return;
-
-    readSurfaces(graph_.pass(kernels_.scatter).read(rays).read(hits_).readWrite(counters_), scene_)
-        .read(scene_.lights)
-        .read(scene_.environment)
-        .read(scene_.environmentAlias)
-        .read(scene_.reflectanceTable)
-        .write(rays_[1 - parity])
-        .write(shadowRays_)
-        .push(params)
-        .dispatchIndirect(itemArguments);
+    // The last ray only adds emission. Training paths go on, and the last of their rays end in the cache.
+    const bool isLast = depth == deepestRay() && !trains(cache);
+    if (isLast || scene_.triangles == 0) return;
+    scatter(params, cache);
     graph_.pass(kernels_.intersectShadow)
         .read(scene_.bvh)
         .read(shadowRays_)
@@ -202,21 +235,45 @@ void WavefrontPathTracer::bounce(uint32_t depth, uint32_t firstPixel, uint32_t s
         .write(visibility_)
         .push(gpu::TraceParams{gpu::kShadowRayCounter, scene_.bvhRoot})
         .dispatchIndirect(traceArguments); // at most one shadow ray a ray
-    graph_.pass(kernels_.addDirectLight)
-        .read(shadowRays_)
-        .read(visibility_)
-        .read(counters_)
-        .readWrite(radiance_)
-        .dispatchIndirect(itemArguments);
+    addDirectLight(cache);
     graph_.cut();
 }
 
-void WavefrontPathTracer::recordSurfaces(const Camera& camera, uint32_t firstPixel, uint32_t pathCount) {
+void WavefrontPathTracer::scatter(const gpu::BounceParams& params, const CachePaths* cache) {
+    const uint32_t parity = params.queueParity;
+    Pass pass = graph_.pass(kernels_.scatter);
+    readSurfaces(pass.read(rays_[parity]).read(hits_).readWrite(counters_), scene_)
+        .read(scene_.lights)
+        .read(scene_.environment)
+        .read(scene_.environmentAlias)
+        .read(scene_.reflectanceTable)
+        .write(rays_[1 - parity])
+        .write(shadowRays_);
+    if (cache)
+        gatherForTraining(pass, pathStates_, *cache)
+            .write(cache->queries)
+            .write(cache->queryWeights)
+            .write(cache->trainingQueries)
+            .readWrite(cache->counters)
+            .push(CachedBounceParams{params, cache->rule});
+    else
+        pass.push(params);
+    pass.dispatchIndirect(BufferRange(arguments_, gpu::kItemArguments * 4, 12));
+}
+
+void WavefrontPathTracer::addDirectLight(const CachePaths* cache) {
+    Pass pass = graph_.pass(kernels_.addDirectLight);
+    pass.read(shadowRays_).read(visibility_).read(counters_).readWrite(radiance_);
+    if (cache) gatherForTraining(pass, pathStates_, *cache);
+    pass.dispatchIndirect(BufferRange(arguments_, gpu::kItemArguments * 4, 12));
+}
+
+void WavefrontPathTracer::recordSurfaces(const Camera& camera, const Wave& wave) {
     const gpu::SurfaceParams params{
-        firstPixel, pathCount, 0, 0, glm::vec4(camera.position, 0), glm::vec4(camera.forward, 0)};
+        wave.firstPixel, wave.paths, 0, 0, glm::vec4(camera.position, 0), glm::vec4(camera.forward, 0)};
     readSurfaces(graph_.pass(kernels_.recordSurfaces).read(rays_[0]).read(hits_).readWrite(surfaces_), scene_)
         .push(params)
-        .dispatch(pathCount);
+        .dispatch(wave.paths);
 }
 
 uint64_t WavefrontPathTracer::raysTraced() const {

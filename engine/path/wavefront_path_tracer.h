@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/graph/frame_graph.h"
+#include "engine/path/cache_paths.h"
 #include "engine/path/film_image.h"
 #include "engine/scene/gpu_scene.h"
 #include "shared/path.h"
@@ -17,6 +18,13 @@ struct PathTracerOptions {
     uint32_t seed = 1;
     bool surfaces = false; // gather the AOV layers
     uint32_t waveSize = 0; // paths in flight; 0 = the device class's default. Changes no result.
+    bool cached = false;   // traceWave is given CachePaths
+};
+
+// Consecutive pixels whose paths are in flight together; path i belongs to pixel firstPixel + i.
+struct Wave {
+    uint32_t firstPixel = 0;
+    uint32_t paths = 0;
 };
 
 class WavefrontPathTracer {
@@ -32,6 +40,22 @@ public:
     // same index gives the same frame, whatever was rendered before.
     void renderFrame(const Camera& camera, uint32_t index);
 
+    // The steps of a frame, for renderers that take more: begin, each wave's samples in turn, each followed
+    // by what the cache adds to radiance(), the wave's film, and at last the graph's execution and end.
+    FrameGraph& graph() { return graph_; }
+    void beginFrame();
+    std::vector<Wave> waves() const;
+    void traceWave(const Camera& camera, const Wave& wave, uint32_t frame, uint32_t sample,
+                   const CachePaths* cache = nullptr);
+    void addToFilm(const Wave& wave);
+    void endFrame();
+    void forgetFilm(); // the next frame is the film's first
+    const Buffer& radiance() const { return radiance_; } // vec4 per path of the wave
+    uint32_t largestWave() const { return waveSize_; }
+    static uint32_t largestWave(const Device& device, const PathTracerOptions& options);
+    // Number of the last ray of a path, which only meets emission.
+    uint32_t deepestRay() const { return options_.maxBounces + 1; }
+
     uint32_t frames() const { return frames_; } // in the film
     FilmImage readFilm() const;
     uint64_t raysTraced() const; // of all kinds, by the last frame
@@ -42,10 +66,10 @@ private:
             recordSurfaces, scatter, intersectShadow, addDirectLight, updateFilm;
     };
 
-    void traceWave(const Camera& camera, uint32_t firstPixel, uint32_t pathCount, uint32_t sampleIndex,
-                   bool firstSample);
-    void bounce(uint32_t depth, uint32_t firstPixel, uint32_t sampleIndex);
-    void recordSurfaces(const Camera& camera, uint32_t firstPixel, uint32_t pathCount);
+    void bounce(uint32_t depth, const Wave& wave, uint32_t sampleIndex, const CachePaths* cache);
+    void scatter(const gpu::BounceParams& params, const CachePaths* cache);
+    void addDirectLight(const CachePaths* cache);
+    void recordSurfaces(const Camera& camera, const Wave& wave);
 
     Device& device_;
     const GpuScene& scene_;
@@ -59,7 +83,8 @@ private:
     Buffer hits_;
     Buffer shadowRays_;
     Buffer visibility_;
-    Buffer radiance_; // vec4 per path: what its samples of this frame have gathered
+    Buffer pathStates_; // where there is a cache
+    Buffer radiance_;   // vec4 per path: what its samples of this frame have gathered
     Buffer counters_;
     Buffer arguments_;
     Buffer film_;

@@ -7,10 +7,13 @@ namespace irradia {
 nlohmann::ordered_json frameStats(RenderSession& session) {
     const DeviceDescription& device = session.device().description();
     const Profiler::Row wall = session.profiler().wall();
-    double traceShade = 0.0;
+    double traceShade = 0.0, query = 0.0, train = 0.0;
     auto passes = nlohmann::ordered_json::array();
     for (const Profiler::Row& row : session.profiler().rows()) {
-        traceShade += row.p50;
+        double& column = row.name.starts_with("query/")   ? query
+                         : row.name.starts_with("train/") ? train
+                                                          : traceShade;
+        column += row.p50;
         passes.push_back({{"name", row.name}, {"p50", row.p50}, {"p90", row.p90}, {"runs", row.runs}});
     }
     const double paths = double(session.size().x) * session.size().y * session.request().samplesPerFrame;
@@ -24,14 +27,14 @@ nlohmann::ordered_json frameStats(RenderSession& session) {
             {"samples_per_frame", session.request().samplesPerFrame},
             {"milliseconds",
              {{"trace_shade", traceShade},
-              {"query", 0.0},
-              {"train", 0.0},
-              {"other", wall.p50 - traceShade},
+              {"query", query},
+              {"train", train},
+              {"other", wall.p50 - traceShade - query - train},
               {"total", wall.p50},
               {"total_p90", wall.p90}}},
             {"rays", session.tracer().raysTraced()},
             {"paths_per_second", wall.p50 > 0 ? paths / wall.p50 * 1e3 : 0.0},
-            {"records", 0},
+            {"records", session.nrc() ? session.nrc()->counts().records : 0},
             {"memory_bytes", session.device().memoryUsed()},
             {"passes", passes}};
 }
@@ -46,6 +49,10 @@ void printFrameStats(RenderSession& session) {
                    100.0 * row["p50"].get<double>() / total);
     fmt::print(stderr, "{:<24}{:>10.2f}{:>10.2f}\n", "total (wall clock)", total,
                stats["milliseconds"]["total_p90"].get<double>());
+    const auto& columns = stats["milliseconds"];
+    fmt::print(stderr, "trace & shade {:.2f}, query {:.2f}, training {:.2f}, other {:.2f} ms\n",
+               columns["trace_shade"].get<double>(), columns["query"].get<double>(),
+               columns["train"].get<double>(), columns["other"].get<double>());
     fmt::print(stderr, "{:.3f} M paths/s, {:.2f} M rays/s\n", stats["paths_per_second"].get<double>() * 1e-6,
                stats["rays"].get<double>() / total * 1e-3);
 }

@@ -15,15 +15,15 @@ struct RenderOptions {
     std::string output;
     std::string frames = "1";
     double seconds = 0.0;
+    uint32_t warmup = 0;
     std::string png;
     std::string stats;
     std::string progress = "auto";
 };
 
 // Options of the design that later versions bring: known, and refused in one sentence.
-constexpr const char* kLaterOptions[] = {"--warmup",    "--network",   "--preset", "--view",
-                                         "--changes",   "--model",     "--at",     "--camera-path",
-                                         "--reference", "--checkpoint"};
+constexpr const char* kLaterOptions[] = {"--view",        "--changes",   "--model",     "--at",
+                                         "--camera-path", "--reference", "--checkpoint"};
 constexpr const char* kLaterFlags[] = {"--denoise", "--sequence", "--resume"};
 
 struct FrameRange {
@@ -48,6 +48,9 @@ void renderFrames(RenderSession& session, const RenderOptions& options) {
     const auto elapsed = [&] {
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     };
+    // Frames before the first: their numbers are those before it too, so that the film's stay what they are.
+    for (uint32_t i = options.warmup; i > 0; --i) session.renderFrame(range.first - i);
+    if (options.warmup > 0) session.endWarmup();
     ProgressMeter progress("render", options.progress);
     if (options.seconds > 0.0) {
         for (uint32_t frame = range.first; elapsed() < options.seconds; ++frame) {
@@ -123,6 +126,10 @@ void addRender(CLI::App& program) {
     command->add_option("--time", options->seconds, "Seconds to render for, instead of a number of frames")
         ->check(CLI::PositiveNumber)
         ->group("Frames");
+    command->add_option("--warmup", options->warmup, "Frames before these, which train but are not averaged")
+        ->check(CLI::Range(0u, 1000000u))
+        ->group("Frames")
+        ->capture_default_str();
     addProgressOption(*command, options->progress);
     for (const char* name : kLaterOptions)
         command

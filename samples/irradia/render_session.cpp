@@ -4,6 +4,7 @@
 #include "samples/support/program.h"
 #include <chrono>
 #include <cstdio>
+#include <fmt/ranges.h>
 
 namespace irradia {
 
@@ -16,11 +17,21 @@ RecordAccess parseRecords(const std::string& text) {
 }
 
 void requireKnownMethod(const std::string& method) {
-    if (method == "pt") return;
-    for (const char* later : {"nrc", "cache-view", "nr-lhs", "nr-rhs"})
+    for (const char* known : {"pt", "nrc", "cache-view"})
+        if (method == known) return;
+    for (const char* later : {"nr-lhs", "nr-rhs"})
         if (method == later)
-            fail(ExitCode::Usage, "--method {} comes in a later version; this one has pt", method);
-    fail(ExitCode::Usage, "--method {} is unknown; this version has pt", method);
+            fail(ExitCode::Usage, "--method {} comes in a later version; this one has pt, nrc and cache-view",
+                 method);
+    fail(ExitCode::Usage, "--method {} is unknown; this version has pt, nrc and cache-view", method);
+}
+
+NrcConfig nrcConfig(const RenderRequest& request) {
+    NrcConfig config =
+        request.preset.ends_with(".json") ? loadNrcConfig(request.preset) : nrcPreset(request.preset);
+    if (!request.network.empty()) config.model = loadModelConfig(request.network);
+    if (request.method == "cache-view") config.endDepth = 0;
+    return config;
 }
 
 void reportScene(const Scene& scene, const std::vector<std::string>& packingWarnings) {
@@ -40,7 +51,18 @@ void addRequestOptions(CLI::App& command, RenderRequest& request) {
     command.add_option("scene", request.scene, "glTF scene, .gltf or .glb")->required();
     command.add_option("--camera", request.camera, "Camera by name, index or .json file")->group("Scene");
     command.add_option("--env", request.environment, "Environment: .exr, .hdr or R,G,B")->group("Scene");
-    command.add_option("--method", request.method, "pt")->group("Method")->capture_default_str();
+    command
+        .add_option(
+            "--method", request.method,
+            "pt (path tracing), nrc (with a radiance cache) or cache-view (the cache at the first hit)")
+        ->group("Method")
+        ->capture_default_str();
+    command
+        .add_option("--preset", request.preset,
+                    fmt::format("Of the cache: {}, or a .json file", fmt::join(nrcPresetNames(), ", ")))
+        ->group("Method")
+        ->capture_default_str();
+    command.add_option("--network", request.network, "Model of the cache, a .json file")->group("Method");
     command.add_option("--size", request.size, "Picture, WxH")->group("Method")->capture_default_str();
     command.add_option("--spp", request.samplesPerFrame, "Samples of a pixel per frame")
         ->check(CLI::Range(1u, 65536u))
@@ -84,28 +106,52 @@ RenderSession::RenderSession(const RenderRequest& request)
                device_->description().driver, device_->subgroupSize(),
                device_->texelRecords() ? "texel" : "storage");
 
-    PathTracerOptions options;
-    options.width = size_.x;
-    options.height = size_.y;
-    options.maxBounces = request.maxBounces;
-    options.samplesPerFrame = request.samplesPerFrame;
-    options.seed = request.seed;
-    options.surfaces = request.surfaces;
+    createRenderer(records, bvh);
+}
+
+void RenderSession::createRenderer(const SceneRecords& records, const Bvh& bvh) {
+    NrcOptions options;
+    options.paths.width = size_.x;
+    options.paths.height = size_.y;
+    options.paths.maxBounces = request_.maxBounces;
+    options.paths.samplesPerFrame = request_.samplesPerFrame;
+    options.paths.seed = request_.seed;
+    options.paths.surfaces = request_.surfaces;
+    options.seed = request_.seed;
+    const bool hasCache = request_.method != "pt";
+    if (hasCache) options.config = nrcConfig(request_);
+
     auto plan = plannedBuffers(records, bvh);
-    for (auto& buffer : WavefrontPathTracer::plannedBuffers(*device_, options))
+    for (auto& buffer : hasCache ? NrcRenderer::plannedBuffers(*device_, options)
+                                 : WavefrontPathTracer::plannedBuffers(*device_, options.paths))
         plan.push_back(std::move(buffer));
     device_->plan(plan);
-    gpuScene_ = uploadScene(*device_, records, bvh, sceneBounds(scene_));
-    tracer_ = std::make_unique<WavefrontPathTracer>(*device_, gpuScene_, options, &profiler_);
+    const Bounds bounds = sceneBounds(scene_);
+    gpuScene_ = uploadScene(*device_, records, bvh, bounds);
+    if (hasCache)
+        nrc_ = std::make_unique<NrcRenderer>(*device_, gpuScene_, bounds, options, &profiler_);
+    else
+        tracer_ = std::make_unique<WavefrontPathTracer>(*device_, gpuScene_, options.paths, &profiler_);
 }
 
 double RenderSession::renderFrame(uint32_t index) {
     const auto start = std::chrono::steady_clock::now();
-    tracer_->renderFrame(camera_, index);
+    if (nrc_)
+        nrc_->renderFrame(camera_, index);
+    else
+        tracer_->renderFrame(camera_, index);
     const double wall =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     profiler_.endFrame(wall);
     return wall;
+}
+
+void RenderSession::endWarmup() {
+    if (nrc_)
+        nrc_->forgetFilm();
+    else
+        tracer_->forgetFilm();
+    profiler_.reset();
 }
 
 } // namespace irradia

@@ -4,6 +4,7 @@
 
 #include "engine/path/wavefront_path_tracer.h"
 #include "engine/scene/load_scene.h"
+#include "nrc/renderer/nrc_renderer.h"
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
@@ -17,6 +18,8 @@ struct RenderRequest {
     uint32_t samplesPerFrame = 1;
     uint32_t maxBounces = 16;
     uint32_t seed = 1;
+    std::string preset = "balanced"; // of the methods with a cache: a name, or a file
+    std::string network;             // JSON of nrc/config.h, instead of the preset's model
     std::string camera;
     std::string environment;
     bool surfaces = false;
@@ -34,16 +37,21 @@ public:
 
     // Renders a frame and closes it in the profiler; returns its wall-clock milliseconds.
     double renderFrame(uint32_t index);
+    // What was rendered so far only trained: the film and the profiler begin anew.
+    void endWarmup();
 
     const RenderRequest& request() const { return request_; }
     const Scene& scene() const { return scene_; }
     Device& device() { return *device_; }
-    WavefrontPathTracer& tracer() { return *tracer_; }
+    const WavefrontPathTracer& tracer() const { return nrc_ ? nrc_->tracer() : *tracer_; }
+    NrcRenderer* nrc() { return nrc_.get(); } // null where the method has no cache
     Profiler& profiler() { return profiler_; }
     const Camera& camera() const { return camera_; }
     glm::uvec2 size() const { return size_; }
 
 private:
+    void createRenderer(const SceneRecords& records, const Bvh& bvh);
+
     RenderRequest request_;
     glm::uvec2 size_;
     Scene scene_;
@@ -51,7 +59,8 @@ private:
     std::unique_ptr<Device> device_;
     GpuScene gpuScene_;
     Profiler profiler_;
-    std::unique_ptr<WavefrontPathTracer> tracer_;
+    std::unique_ptr<WavefrontPathTracer> tracer_; // one of the two
+    std::unique_ptr<NrcRenderer> nrc_;
 };
 
 } // namespace irradia

@@ -23,6 +23,8 @@ uint lightBlock(uint depth) { return 1u + 3u * depth; }
 uint bsdfBlock(uint depth) { return 2u + 3u * depth; }
 uint lightChoiceBlock(uint depth) { return 3u + 3u * depth; }
 
+const uint kTileBlock = 0xffffffffu; // of (tile, sample) instead: the pixel of a tile that trains
+
 uvec4 randomBits(uint pixel, uint sampleIndex, uint block, uint seed) {
     return pcg4d(uvec4(pixel, sampleIndex, block, seed));
 }

@@ -1,0 +1,198 @@
+#include "nrc/radiance_cache.h"
+
+#include "engine/error.h"
+#include "kernels/nrc.h"
+#include "shared/network.h"
+#include <algorithm>
+
+namespace irradia {
+namespace {
+
+uint32_t padded(uint32_t rows) {
+    return (std::max(rows, 1u) + gpu::kRowPadding - 1) / gpu::kRowPadding * gpu::kRowPadding;
+}
+
+// Rows that the frame's records may take: their number follows the picture, and is never exactly what was
+// wanted.
+uint32_t recordCapacity(const CacheOptions& options) {
+    const uint32_t batch = padded((options.records + options.records / 2) / std::max(options.steps, 1u));
+    return batch * std::max(options.steps, 1u);
+}
+
+TrainerOptions trainerOptions(const CacheOptions& options) {
+    TrainerOptions trainer;
+    trainer.batchRows = recordCapacity(options) / std::max(options.steps, 1u);
+    trainer.inferRows = padded(std::max(options.queries, options.trainingPaths));
+    trainer.seed = options.seed;
+    trainer.touched = options.touched;
+    return trainer;
+}
+
+constexpr uint64_t kInputBytes = gpu::kCacheInputQuads * 16;
+constexpr uint64_t kVertexBytes = gpu::kMaxTrainingVertices * gpu::kTrainingVertexVectors * 16;
+
+BufferRange word(const Buffer& buffer, uint32_t index) {
+    return {buffer, index * 4, 4};
+}
+
+} // namespace
+
+struct RadianceCache::State {
+    State(Device& d, const CacheOptions& o)
+        : device(d)
+        , options(o)
+        , capacity(recordCapacity(o))
+        , queryRows(padded(o.queries))
+        , pathRows(padded(o.trainingPaths))
+        , trainer(d, o.model, gpu::kCacheInputs, gpu::kCacheOutputs, trainerOptions(o))
+        , queries(d, "cache queries", queryRows * kInputBytes)
+        , queryWeights(d, "query weights", uint64_t(queryRows) * 16)
+        , predictions(d, "predictions", uint64_t(std::max(queryRows, pathRows)) * 16)
+        , counters(d, "cache counters", gpu::kCacheCounters * 4)
+        , trainingPaths(d, "training paths", uint64_t(pathRows) * gpu::kTrainingPathVectors * 16)
+        , trainingVertices(d, "training vertices", pathRows * kVertexBytes)
+        , trainingQueries(d, "training queries", pathRows * kInputBytes)
+        , pathSums(d, "training path sums", uint64_t(pathRows) * 16)
+        , firstRecords(d, "first records", uint64_t(pathRows) * 4)
+        , recordInputs(d, "record inputs", capacity * kInputBytes)
+        , recordTargets(d, "record targets", uint64_t(capacity) * 16)
+        , state(makeBuffer(d, "cache state", std::vector{gpu::CacheState{1.0f, 0, 0, 0, 0, 0, 0, 0}}))
+        , resolveQueries(d, kernels::resolve_queries)
+        , propagateTraining(d, kernels::propagate_training)
+        , countRecords(d, kernels::count_records)
+        , writeRecords(d, kernels::write_records) {}
+
+    void writeTargets(FrameGraph& graph, uint32_t paths);
+
+    Device& device;
+    CacheOptions options;
+    uint32_t capacity, queryRows, pathRows;
+    Trainer trainer;
+    Buffer queries, queryWeights, predictions, counters;
+    Buffer trainingPaths, trainingVertices, trainingQueries;
+    Buffer pathSums, firstRecords, recordInputs, recordTargets;
+    Buffer state; // gpu::CacheState
+    Kernel resolveQueries, propagateTraining, countRecords, writeRecords;
+};
+
+RadianceCache::RadianceCache(Device& device, const CacheOptions& options)
+    : state_(std::make_unique<State>(device, options)) {}
+
+RadianceCache::~RadianceCache() = default;
+
+std::vector<Device::PlannedBuffer> RadianceCache::plannedBuffers(const CacheOptions& options) {
+    const uint64_t paths = padded(options.trainingPaths), queries = padded(options.queries);
+    return {
+        {"cache queries", queries * (kInputBytes + 16) + std::max(queries, paths) * 16},
+        {"training paths", paths * (gpu::kTrainingPathVectors * 16 + kVertexBytes + kInputBytes + 16 + 4)},
+        {"training records", recordCapacity(options) * (kInputBytes + 16)}};
+}
+
+const CacheOptions& RadianceCache::options() const {
+    return state_->options;
+}
+Trainer& RadianceCache::trainer() {
+    return state_->trainer;
+}
+BufferRange RadianceCache::queries() const {
+    return state_->queries;
+}
+BufferRange RadianceCache::queryWeights() const {
+    return state_->queryWeights;
+}
+BufferRange RadianceCache::counters() const {
+    return state_->counters;
+}
+BufferRange RadianceCache::trainingPaths() const {
+    return state_->trainingPaths;
+}
+BufferRange RadianceCache::trainingVertices() const {
+    return state_->trainingVertices;
+}
+BufferRange RadianceCache::trainingQueries() const {
+    return state_->trainingQueries;
+}
+
+void RadianceCache::begin(FrameGraph& graph) {
+    graph.fill(state_->trainingPaths, 0); // no vertices, not ended in the cache
+}
+
+void RadianceCache::beginQueries(FrameGraph& graph) {
+    graph.fill(word(state_->counters, gpu::kQueryCounter), 0);
+}
+
+void RadianceCache::answer(FrameGraph& graph, BufferRange radiance, Weights weights) {
+    State& s = *state_;
+    const RowCount rows{s.counters, gpu::kQueryCounter, s.queryRows};
+    s.trainer.infer(graph, rows, s.queries, s.predictions, weights);
+    graph.pass(s.resolveQueries)
+        .readWrite(s.counters)
+        .read(s.queries)
+        .read(s.queryWeights)
+        .read(s.predictions)
+        .read(s.state)
+        .readWrite(radiance)
+        .push(gpu::ResolveParams{s.options.factorise ? 1u : 0u})
+        .dispatch(s.options.queries);
+}
+
+// From training paths to records: where paths ended the cache predicts, light goes back along them.
+void RadianceCache::State::writeTargets(FrameGraph& graph, uint32_t paths) {
+    const gpu::RecordsParams params{paths, capacity, options.factorise ? 1u : 0u, options.meanDecay};
+    graph.fill(word(counters, gpu::kTrainingPathCounter), paths);
+    trainer.infer(graph, RowCount{counters, gpu::kTrainingPathCounter, pathRows}, trainingQueries,
+                  predictions, options.selfTraining);
+    graph.pass(propagateTraining)
+        .readWrite(counters)
+        .read(trainingPaths)
+        .readWrite(trainingVertices)
+        .read(trainingQueries)
+        .read(predictions)
+        .read(state)
+        .write(pathSums)
+        .push(params)
+        .dispatch(paths);
+    graph.pass(countRecords)
+        .readWrite(counters)
+        .read(pathSums)
+        .write(firstRecords)
+        .readWrite(state)
+        .push(params)
+        .dispatchGroups(1);
+    graph.pass(writeRecords)
+        .readWrite(counters)
+        .read(pathSums)
+        .read(firstRecords)
+        .read(trainingVertices)
+        .read(state)
+        .write(recordInputs)
+        .write(recordTargets)
+        .push(params)
+        .dispatch(uint64_t(paths) * gpu::kMaxTrainingVertices);
+}
+
+void RadianceCache::learn(FrameGraph& graph, uint32_t paths) {
+    State& s = *state_;
+    if (paths > s.options.trainingPaths)
+        fail(ExitCode::Internal, "radiance cache: {} training paths, at most {} were planned", paths,
+             s.options.trainingPaths);
+    if (paths == 0) return;
+    s.writeTargets(graph, paths);
+    s.trainer.train(graph,
+                    {RowCount{s.counters, gpu::kRecordCounter, s.capacity}, s.recordInputs, s.recordTargets},
+                    s.options.steps);
+}
+
+CacheCounts RadianceCache::counts() const {
+    const State& s = *state_;
+    const auto counters = download<uint32_t>(s.device, s.counters, gpu::kCacheCounters);
+    CacheCounts counts;
+    counts.records = counters[gpu::kRecordCounter];
+    counts.skippedRecords = counters[gpu::kSkippedRecords];
+    counts.clampedPredictions = counters[gpu::kClampedPredictions];
+    counts.training = s.trainer.counts();
+    counts.state = download<gpu::CacheState>(s.device, s.state, 1).front();
+    return counts;
+}
+
+} // namespace irradia

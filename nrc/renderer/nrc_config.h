@@ -1,0 +1,48 @@
+// The knobs of rendering with a cache, as JSON:
+//
+//     {"paths": {"spread": 0.01, "training_spread": 0.01, "unbiased_share": 0.0625, "suffix_bounces": 8},
+//      "training": {"records": 65536, "min_records": 4096, "steps": 4, "self_training": "Ema"},
+//      "factorise": true, "shown": "Ema", "residual_share": 0, "model": {...}}
+//
+// where every key may be missing; "model" is what nrc/config.h describes, of gpu::kCacheInputs inputs.
+#pragma once
+
+#include "nrc/config.h"
+#include "nrc/trainer.h"
+#include "shared/cache.h"
+#include <filesystem>
+#include <span>
+#include <string>
+
+namespace irradia {
+
+struct NrcConfig {
+    // Paths end where their area spread exceeds `spread` times the primary vertex' (Müller 2021,
+    // section 3.4); infinity ("never") = not at all. Suffixes of training paths likewise.
+    float spread = 0.01f;
+    float trainingSpread = 0.01f;
+    uint32_t endDepth = gpu::kNoDepth;  // number of the vertex at which paths end at the latest
+    float unbiasedShare = 1.0f / 16.0f; // of training paths whose suffix ends by Russian roulette alone
+    uint32_t suffixBounces = 8; // of a training path, beyond those that --max-bounces gives a rendering path
+    // Share of the paths that go on past their query, so that the picture is unbiased (the cache is then a
+    // control variate); 0 = none.
+    float residualShare = 0.0f;
+
+    uint32_t recordsAt1080p = 65536; // wanted per frame of 1920 x 1080 pixels; scaled with the picture
+    uint32_t minRecords = 4096;
+    uint32_t steps = 4;                  // of optimisation a frame
+    bool factorise = true;               // predictions are multiplied by the reflectance
+    Weights selfTraining = Weights::Ema; // whose predictions end training paths
+    Weights shown = Weights::Ema;        // whose predictions are rendered
+    ModelConfig model;                   // default: that of the preset "faithful"
+};
+
+// Throws Error: NotFound, or BadData naming the file and the key that is unknown or out of range.
+NrcConfig loadNrcConfig(const std::filesystem::path& file);
+NrcConfig parseNrcConfig(const std::string& json, const std::string& name);
+
+// The presets that come with the project. Throws Error(Usage) naming those there are.
+NrcConfig nrcPreset(const std::string& name);
+std::vector<std::string> nrcPresetNames();
+
+} // namespace irradia

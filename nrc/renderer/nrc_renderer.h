@@ -1,0 +1,54 @@
+// Rendering with a neural radiance cache (Müller 2021): paths end early in the cache, which learns from a few
+// of them while frames are rendered.
+#pragma once
+
+#include "engine/path/wavefront_path_tracer.h"
+#include "nrc/radiance_cache.h"
+#include "nrc/renderer/nrc_config.h"
+
+namespace irradia {
+
+struct NrcOptions {
+    PathTracerOptions paths;
+    NrcConfig config;
+    uint64_t seed = 1;
+};
+
+class NrcRenderer {
+public:
+    // `bounds`: the box in which the cache is asked, normally the scene's.
+    NrcRenderer(Device& device, const GpuScene& scene, const Bounds& bounds, const NrcOptions& options,
+                Profiler* profiler = nullptr);
+
+    static std::vector<Device::PlannedBuffer> plannedBuffers(const Device& device, const NrcOptions& options);
+
+    // Adds a frame to the film and learns from it. `index` numbers it for the random numbers.
+    void renderFrame(const Camera& camera, uint32_t index);
+    void forgetFilm(); // what follows is averaged anew; what was learned stays
+
+    void setLearning(bool learns) { learns_ = learns; } // false: the cache stays as it is
+
+    const WavefrontPathTracer& tracer() const { return tracer_; }
+    RadianceCache& cache() { return cache_; }
+    const CacheCounts& counts() const { return counts_; } // of the last frame
+
+private:
+    struct Tiles {
+        uint32_t x = 0, y = 0;
+        uint32_t count() const { return x * y; }
+    };
+
+    CachePaths cachePaths(bool train) const;
+    Tiles wantedTiles() const;
+
+    NrcOptions options_;
+    Bounds bounds_;
+    WavefrontPathTracer tracer_;
+    RadianceCache cache_;
+    CacheCounts counts_;
+    Tiles tiles_; // of this frame: one training path each
+    double recordsPerPath_ = 2.0;
+    bool learns_ = true;
+};
+
+} // namespace irradia

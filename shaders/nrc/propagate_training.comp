@@ -1,0 +1,37 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Carries radiance back along each training path, from where it ended: gathered light becomes the targets.
+#include "lib/kernel.glsl"
+#include "shared/cache.h"
+#include "shared/network.h"
+
+COUNTERS(0, counters);
+layout(set = 0, binding = 1, std430) readonly buffer TrainingPaths { uvec4 trainingPaths[]; };
+layout(set = 0, binding = 2, std430) buffer TrainingVertices { vec4 trainingVertices[]; };
+RECORDS_READ(3, queries); // of the training paths
+RECORDS_READ(4, results);
+layout(set = 0, binding = 5, std430) readonly buffer State { CacheState cacheState; };
+RECORDS_WRITE(6, pathSums); // per path: records (uint), sum and largest of the targets' luminance
+layout(push_constant) uniform Push { RecordsParams params; };
+#include "nrc/prediction.glsl"
+
+void main() {
+    uint path = gl_GlobalInvocationID.x;
+    if (path >= params.paths) return;
+    uint vertices = trainingPaths[path * kTrainingPathVectors].w;
+    vec3 l = vec3(0.0);
+    if (trainingPaths[path * kTrainingPathVectors + 1u].w != 0u) {
+        vec3 factor = REFLECTANCE(queries, path);
+        l = toRadiance(uintBitsToFloat(loadRecord(results, path).rgb), params.factorise != 0u ? factor : vec3(1.0));
+    }
+    float sum = 0.0, largest = 0.0;
+    for (uint i = vertices; i > 0u; --i) {
+        uint at = (path * kMaxTrainingVertices + i - 1u) * kTrainingVertexVectors;
+        l = trainingVertices[at + kGathered].rgb + trainingVertices[at + kThroughput].rgb * l;
+        trainingVertices[at + kGathered].rgb = l;
+        float y = luminance(l);
+        sum += y < 1e15 ? y : 0.0; // what is not finite the trainer drops and counts
+        largest = max(largest, y);
+    }
+    storeRecord(pathSums, path, uvec4(vertices, floatBitsToUint(sum), floatBitsToUint(largest), 0u));
+}

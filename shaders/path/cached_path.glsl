@@ -1,0 +1,200 @@
+// A path of a renderer with a cache (shared/cache.h): where it asks, where it ends, and what it records for training.
+// Bindings: those of training_light.glsl, then `queries`, `queryWeights`, `trainingQueries` (records) and `cacheCounters`;
+// `params` is a BounceParams, `rule` a CacheRule.
+#ifndef IRRADIA_PATH_CACHED_PATH_GLSL
+#define IRRADIA_PATH_CACHED_PATH_GLSL
+#include "lib/math.glsl"
+#include "lib/rng.glsl"
+#include "path/surface.glsl"
+#include "path/training_light.glsl"
+#include "shared/network.h"
+
+struct CachedPath {
+    uint path;
+    uint training; // + 1, 0 = none
+    uint flags;
+    float a0;
+    float spread; // square root of the area spread
+    bool renders; // what follows is seen
+    bool trains;  // what follows is learned from
+    vec3 weight;  // of the training path, from its last recorded vertex on
+    uint vertices;
+};
+
+// ---- state ----
+
+// The first row or column of a tile, of `tiles` that share `size` pixels.
+uint tileBegin(uint tile, uint tiles, uint size) { return (tile * size + tiles - 1u) / tiles; }
+
+// The training path that this pixel's path is, + 1: one pixel of each tile has one, another in each frame.
+uint trainingPathOf(uint pixel) {
+    if (rule.tilesX == 0u) return 0u;
+    uvec2 at = uvec2(pixel % rule.width, pixel / rule.width);
+    uvec2 tiles = uvec2(rule.tilesX, rule.tilesY);
+    uvec2 tile = at * tiles / uvec2(rule.width, rule.height);
+    uvec2 low = uvec2(tileBegin(tile.x, tiles.x, rule.width), tileBegin(tile.y, tiles.y, rule.height));
+    uvec2 high = uvec2(tileBegin(tile.x + 1u, tiles.x, rule.width), tileBegin(tile.y + 1u, tiles.y, rule.height));
+    uint index = tile.y * tiles.x + tile.x;
+    uvec4 random = randomBits(index, params.sampleIndex, kTileBlock, params.seed);
+    bool chosen = all(equal(at, low + uvec2(uniformIndex(random.x, high.x - low.x), uniformIndex(random.y, high.y - low.y))));
+    return chosen ? index + 1u : 0u;
+}
+
+// distance and cosine: of the ray at the vertex where it arrives.
+CachedPath beginPath(uint path, uint pixel, float distance, float cosine) {
+    CachedPath c;
+    c.path = path;
+    c.training = trainingPathOf(pixel);
+    float choice = unitFloat(randomBits(pixel, params.sampleIndex, kCameraBlock, params.seed).z);
+    c.flags = choice < rule.unbiasedShare ? kPathUnbiased : 0u;
+    c.a0 = distance * distance / (4.0 * kPi * cosine);
+    c.spread = 0.0;
+    c.weight = vec3(1.0);
+    c.vertices = 0u;
+    return c;
+}
+
+CachedPath continuePath(uint path, float distance, float cosine, float pdf) {
+    uvec4 state = pathStates[path];
+    CachedPath c;
+    c.path = path;
+    c.training = state.z;
+    c.flags = state.w;
+    c.a0 = uintBitsToFloat(state.x);
+    c.spread = uintBitsToFloat(state.y) + distance * inversesqrt(pdf * cosine);
+    uvec4 training = trainingPaths[max(c.training, 1u) * kTrainingPathVectors - kTrainingPathVectors];
+    c.weight = uintBitsToFloat(training.rgb);
+    c.vertices = training.w;
+    return c;
+}
+
+void storePath(CachedPath c) {
+    pathStates[c.path] = uvec4(floatBitsToUint(c.a0), floatBitsToUint(c.spread), c.trains ? c.training : 0u, c.flags);
+}
+
+// ---- vertices ----
+
+vec2 sphericalCoordinates(vec3 d) {
+    return vec2(acos(clamp(d.z, -1.0, 1.0)) * kInvPi, atan(d.y, d.x) * (0.5 * kInvPi) + 0.5);
+}
+
+struct CacheInputs {
+    vec4 quads[kCacheInputQuads];
+};
+
+CacheInputs inputsOf(Surface s, vec3 view) {
+    vec3 position = (s.position - rule.boxLow.xyz) * rule.boxLow.w;
+    vec2 direction = sphericalCoordinates(view);
+    vec2 normal = sphericalCoordinates(s.shadingNormal);
+    CacheInputs i;
+    i.quads[0] = vec4(position, direction.x);
+    i.quads[1] = vec4(direction.y, normal, 1.0 - exp(-s.roughness));
+    i.quads[2] = vec4(s.bsdf.diffuse, s.bsdf.specularF0.r);
+    i.quads[3] = vec4(s.bsdf.specularF0.gb, 0.0, 0.0);
+    return i;
+}
+
+bool isInBox(vec3 p) { return all(greaterThanEqual(p, rule.boxLow.xyz)) && all(lessThanEqual(p, rule.boxHigh.xyz)); }
+
+// Müller 2021, section 3.4: the path's footprint has grown beyond a share c of that of the primary vertex.
+bool hasSpread(CachedPath c, float threshold) { return c.spread * c.spread > threshold * c.a0; }
+
+void ask(bool asks, CachedPath c, CacheInputs inputs, vec3 weight) {
+    uvec4 ballot = subgroupBallot(asks);
+    uint base = 0u;
+    if (subgroupElect()) base = atomicAdd(cacheCounters[kQueryCounter], subgroupBallotBitCount(ballot));
+    uint row = subgroupBroadcastFirst(base) + subgroupBallotExclusiveBitCount(ballot);
+    if (!asks) return;
+    [[unroll]] for (uint q = 0u; q < kCacheInputQuads; ++q)
+        storeRecord(queries, quadIndex(row, q, kCacheInputQuads), floatBitsToUint(inputs.quads[q]));
+    storeRecord(queryWeights, row, uvec4(floatBitsToUint(weight), c.path));
+}
+
+uint vertexAt(CachedPath c, uint vertex) {
+    return ((c.training - 1u) * kMaxTrainingVertices + vertex) * kTrainingVertexVectors;
+}
+
+// The last recorded vertex, if any, gets its throughput to here.
+void closeVertex(CachedPath c) {
+    if (c.vertices > 0u) trainingVertices[vertexAt(c, c.vertices - 1u) + kThroughput] = uvec4(floatBitsToUint(c.weight), 0u);
+}
+
+// A delta lobe scatters nothing that a cache could hold.
+bool isDelta(Surface s) { return s.bsdf.alpha <= kMinAlpha && maxComponent(s.bsdf.diffuse) == 0.0; }
+
+void recordVertex(inout CachedPath c, CacheInputs inputs) {
+    closeVertex(c);
+    uint at = vertexAt(c, c.vertices);
+    [[unroll]] for (uint q = 0u; q < kCacheInputQuads; ++q) trainingVertices[at + q] = floatBitsToUint(inputs.quads[q]);
+    trainingVertices[at + kGathered] = uvec4(0u);
+    trainingVertices[at + kThroughput] = uvec4(0u);
+    c.weight = vec3(1.0);
+    ++c.vertices;
+}
+
+// The training path ends in the cache: its last radiance is what the cache predicts here.
+void endInCache(CachedPath c, CacheInputs inputs) {
+    closeVertex(c);
+    [[unroll]] for (uint q = 0u; q < kCacheInputQuads; ++q)
+        storeRecord(trainingQueries, quadIndex(c.training - 1u, q, kCacheInputQuads), floatBitsToUint(inputs.quads[q]));
+    uint at = (c.training - 1u) * kTrainingPathVectors;
+    trainingPaths[at].w = c.vertices;
+    trainingPaths[at + 1u] = uvec4(0u, 0u, 0u, 1u);
+}
+
+// A path arrives at a vertex. `beta` is its weight for the picture, and becomes that of what follows: 0 where it ends.
+CachedPath arrive(bool alive, uint path, uint pixel, Surface s, vec3 view, float distance, float pdf, inout vec3 beta) {
+    float cosine = max(abs(dot(s.geometricNormal, view)), 1e-6);
+    CachedPath c;
+    if (params.depth == 0u)
+        c = beginPath(path, pixel, distance, cosine);
+    else
+        c = continuePath(path, distance, cosine, pdf);
+    c.trains = alive && c.training != 0u;
+    c.renders = alive && (c.flags & kPathEnded) == 0u && params.depth < rule.deepest;
+    CacheInputs inputs = inputsOf(s, view);
+    bool inBox = isInBox(s.position);
+
+    bool asks = c.renders && inBox && (c.flags & kPathAsked) == 0u &&
+                (hasSpread(c, rule.boxHigh.w) || params.depth >= rule.endDepth);
+    float choice = unitFloat(randomBits(pixel, params.sampleIndex, lightChoiceBlock(params.depth), params.seed).y);
+    bool goesOn = choice < rule.residualShare;
+    float share = max(rule.residualShare, 1e-6);
+    ask(asks, c, inputs, goesOn ? beta * (1.0 - 1.0 / share) : beta);
+    c.renders = c.renders && (!asks || goesOn);
+    beta = c.renders ? (asks ? beta / share : beta) : vec3(0.0);
+    c.flags |= asks ? kPathAsked : 0u;
+    c.flags |= c.renders ? 0u : kPathEnded;
+
+    if (c.trains) {
+        // The vertex that is asked plays the primary vertex to the suffix.
+        bool inSuffix = (c.flags & (kPathAsked | kPathEnded)) != 0u && !asks;
+        bool suffixEnds = inSuffix && (c.flags & kPathUnbiased) == 0u && hasSpread(c, rule.trainingSpread);
+        if (inBox && (suffixEnds || params.depth >= rule.lastDepth)) {
+            endInCache(c, inputs);
+            c.trains = false;
+        } else if (inBox && !isDelta(s) && c.vertices < kMaxTrainingVertices) {
+            recordVertex(c, inputs);
+        }
+    }
+    c.spread = asks ? 0.0 : c.spread;
+    return c;
+}
+
+// The path leaves the vertex: with a light sample (which its shadow ray may take away again) and with a ray.
+void leave(CachedPath c, vec3 directLight, vec3 throughput) {
+    if (c.trains) {
+        uint at = (c.training - 1u) * kTrainingPathVectors;
+        trainingPaths[at] = uvec4(floatBitsToUint(c.weight * throughput), c.vertices);
+        trainingPaths[at + 1u] = uvec4(floatBitsToUint(c.weight * directLight), 0u);
+    }
+    if (c.renders || c.trains) storePath(c);
+}
+
+// Probability with which Russian roulette lets the path go on: that of the picture; past its end only unbiased suffixes play.
+float survivalOf(CachedPath c, float renderSurvival, vec3 throughput) {
+    if (c.renders) return renderSurvival;
+    return (c.flags & kPathUnbiased) != 0u ? min(maxComponent(throughput), 1.0) : 1.0;
+}
+
+#endif

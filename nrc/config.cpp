@@ -12,6 +12,8 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr size_t kMaxParts = 16; // of a composite
+// Second moments below 1e-38 vanish in single precision, so that steps would be divided by epsilon alone.
+constexpr double kSmallestAdamEpsilon = 1e-18;
 constexpr double kFinestResolution =
     1 << 20; // a coordinate in single precision still tells 16 places in a cell
 
@@ -137,7 +139,7 @@ void readAdam(JsonFields& fields, OptimizerConfig& config) {
     config.gridLearningRate = fields.number("grid_learning_rate", config.learningRate, {0, 10});
     config.beta1 = fields.number("beta1", config.beta1, {0, 1, NumberRange::HighOpen});
     config.beta2 = fields.number("beta2", config.beta2, {0, 1, NumberRange::HighOpen});
-    config.epsilon = fields.number("epsilon", config.epsilon, {0, 1, NumberRange::LowOpen});
+    config.epsilon = fields.number("epsilon", config.epsilon, {kSmallestAdamEpsilon, 1});
     config.l2 = fields.number("l2_reg", config.l2, {0, 1});
     config.clipNorm = fields.number("clip_norm", config.clipNorm, {0, 1e9});
     config.lossScale = fields.number("loss_scale", config.lossScale, {1, 1 << 20});

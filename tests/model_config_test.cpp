@@ -232,7 +232,7 @@ TEST_CASE("values out of range are refused with the range") {
     checkRefused(adam("\"learning_rate\": -1"), "optimizer.learning_rate");
     checkRefused(adam("\"learning_rate\": true"), "optimizer.learning_rate");
     checkRefused(adam("\"beta1\": 1"), "optimizer.beta1 must be a number from 0 to below 1, not 1");
-    checkRefused(adam("\"epsilon\": 0"), "optimizer.epsilon must be a number from above 0 to 1, not 0");
+    checkRefused(adam("\"epsilon\": 0"), "optimizer.epsilon must be a number from 1e-18 to 1, not 0");
     checkRefused(adam("\"clip_norm\": -1"), "optimizer.clip_norm");
     checkRefused(adam("\"loss_scale\": 0"), "optimizer.loss_scale");
     checkRefused(R"({"optimizer": {"otype": "Ema", "decay": 1, "nested": {"otype": "Adam"}}})",

@@ -265,6 +265,22 @@ TEST_CASE("bias corrections stay exact over many steps") {
     for (const float v : harness.get(&ParameterGroup::values)) REQUIRE(std::abs(v + 1e-3 * kSteps) <= 1e-5);
 }
 
+TEST_CASE("a gradient whose square vanishes makes no large step") {
+    OptimizerConfig config = plainConfig();
+    config.epsilon = 1e-18; // the least that models may ask for
+    config.beta2 = 0.999;
+    OptimizerHarness harness(config);
+    std::vector<float> gradient(kAll);
+    for (uint32_t i = 0; i < kAll; ++i)
+        gradient[i] = static_cast<float>(std::pow(10.0, -15.0 - 10.0 * i / kAll)); // to 1e-25
+    gradient[0] = 0.0f;
+    harness.step(gradient);
+    for (const float v : harness.get(&ParameterGroup::values))
+        REQUIRE(std::abs(v) <= 5.0 * config.learningRate);
+    CHECK(harness.get(&ParameterGroup::values)[0] == 0.0f);
+    CHECK(harness.state().damagedParameters == 0);
+}
+
 TEST_CASE("a batch without usable records changes nothing, bit for bit") {
     OptimizerHarness harness(fullConfig());
     reference::Random random(4);

@@ -240,13 +240,18 @@ TEST_CASE("a function is learned, and each pass shuffles anew") {
     for (uint32_t i = 0; i < records.count(); ++i)
         for (uint32_t o = 0; o < kTrainerOutputs; ++o)
             records.targets[size_t{i} * kTrainerOutputs + o] = 0.5 + 0.4 * records.inputRow(i)[o];
-    TrainerHarness harness, other(smallModel(), 2);
-    harness.train(records, 4);
-    const float first = harness.trainer().counts().loss;
-    for (int i = 0; i < 50; ++i) harness.train(records, 4);
-    CHECK(harness.trainer().counts().loss < 0.01f * first);
-    CHECK(harness.trainer().counts().steps == 204);
+    ModelConfig half = smallModel();
+    half.network.precision = Precision::Half;
+    for (const ModelConfig& config : {smallModel(), half}) {
+        TrainerHarness harness(config);
+        harness.train(records, 4);
+        const float first = harness.trainer().counts().loss;
+        for (int i = 0; i < 50; ++i) harness.train(records, 4);
+        CHECK(harness.trainer().counts().loss < 0.01f * first);
+        CHECK(harness.trainer().counts().steps == 204);
+    }
 
+    TrainerHarness other(smallModel(), 2);
     other.trainer().setParameters(TrainerHarness().trainer().parameters(Weights::Raw));
     TrainerHarness same;
     for (TrainerHarness* h : {&other, &same}) h->train(records, 4); // alike but for the shuffling's seed

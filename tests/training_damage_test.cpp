@@ -137,7 +137,7 @@ TEST_CASE("clipped steps are counted") {
 // get: 2 t / 0.01.
 TEST_CASE("bright targets are learned from in half precision too") {
     TrainingRecords records = randomRecords(100, 7);
-    for (const double brightest : {1.0, 30.0, 1000.0, 5e4}) {
+    for (const double brightest : {30.0, 5e4}) {
         for (size_t i = 0; i < records.targets.size(); i += 7) records.targets[i] = brightest;
         for (const char* loss : {R"({"otype": "RelativeL2Luminance"})", R"({"otype": "L2"})"}) {
             TrainerHarness harness(inHalf(smallModel(loss)));

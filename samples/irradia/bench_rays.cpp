@@ -1,9 +1,9 @@
 // irradia bench rays: the tracing kernels against Embree on the same rays, in interleaved rounds.
 #include "bench_ray_sets.h"
+#include "bench_tools.h"
 #include "commands.h"
 #include "engine/error.h"
 #include "engine/graph/frame_graph.h"
-#include "engine/image/image.h"
 #include "engine/scene/bvh.h"
 #include "engine/scene/load_scene.h"
 #include "kernels/path.h"
@@ -16,11 +16,8 @@
 #include <bit>
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
-#include <iostream>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 namespace irradia {
 namespace {
@@ -132,20 +129,6 @@ size_t mismatches(Device& device, const RayKind& kind, const EmbreeScene& embree
     return count;
 }
 
-double median(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    const size_t half = values.size() / 2;
-    return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
-}
-
-// The threads a CPU device runs on (lavapipe's variable), to give Embree the same.
-uint32_t threadsOf(const Device& device) {
-    const uint32_t cores = std::max(1u, std::thread::hardware_concurrency());
-    const char* text = std::getenv("LP_NUM_THREADS");
-    const int asked = device.isCpu() && text ? std::atoi(text) : 0;
-    return asked > 0 ? static_cast<uint32_t>(asked) : cores;
-}
-
 std::string sceneFile(const BenchRaysOptions& options) {
     if (!options.scene.empty()) return options.scene;
     const auto program = std::filesystem::read_symlink("/proc/self/exe");
@@ -163,8 +146,7 @@ void report(const RayKind& kind, size_t wrong) {
                median(kind.ratios), wrong);
 }
 
-void writeJson(const std::string& file, const std::vector<RayKind*>& kinds, const Device& device,
-               size_t triangles) {
+nlohmann::ordered_json jsonOf(const std::vector<RayKind*>& kinds, const Device& device, size_t triangles) {
     nlohmann::ordered_json json;
     for (const RayKind* kind : kinds)
         json["rays"][kind->name] = {
@@ -172,11 +154,7 @@ void writeJson(const std::string& file, const std::vector<RayKind*>& kinds, cons
             {"embree_ratio", median(kind->ratios)}};
     json["device"] = device.description().name;
     json["triangles"] = triangles;
-    const std::string text = json.dump(2) + "\n";
-    if (file == "-")
-        std::cout << text;
-    else
-        writeFileAtomically(file, std::span(reinterpret_cast<const uint8_t*>(text.data()), text.size()));
+    return json;
 }
 
 void benchRays(BenchRaysOptions options) {
@@ -188,7 +166,7 @@ void benchRays(BenchRaysOptions options) {
     const Bvh bvh = buildBvh(scene);
     const double built = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     Device device(options.device);
-    const EmbreeScene embree(scene, threadsOf(device));
+    const EmbreeScene embree(scene, cpuThreads(device));
     fmt::print(stderr, "{}: {} triangles, built in {:.2f} s; {} against Embree on {} threads\n", scene.name,
                scene.triangles.size(), built, device.description().name, embree.threads());
 
@@ -212,7 +190,7 @@ void benchRays(BenchRaysOptions options) {
         }
     if (options.json != "-")
         for (const RayKind* kind : kinds) report(*kind, mismatches(device, *kind, embree));
-    if (!options.json.empty()) writeJson(options.json, kinds, device, scene.triangles.size());
+    if (!options.json.empty()) writeJson(options.json, jsonOf(kinds, device, scene.triangles.size()));
 }
 
 } // namespace

@@ -37,6 +37,12 @@ void requireFiles(const FitOptions& options) {
         if (!file.empty() && file != "-") requireWritable(file);
 }
 
+std::vector<LearningCurve> readCurves(const std::vector<std::string>& files) {
+    std::vector<LearningCurve> curves;
+    for (const std::string& file : files) curves.push_back(readCsv(file));
+    return curves;
+}
+
 // The steps after which the picture is measured: about ten in each doubling, so that a logarithm sees them
 // evenly.
 uint32_t nextMeasurement(uint32_t step) {
@@ -143,12 +149,12 @@ void writeLearned(const Result& result, const Picture& picture, ImageLearner& le
     writeExr(options.output, image);
 }
 
-void writeChart(const Result& result, const Picture& picture, ImageLearner& learner, const Device& device,
-                const FitOptions& options) {
+void writeChart(const Result& result, const std::vector<LearningCurve>& earlier, const Picture& picture,
+                ImageLearner& learner, const Device& device, const FitOptions& options) {
     std::vector<LearningCurve> curves{result.curve};
-    for (const std::string& file : options.against) curves.push_back(readCsv(file));
+    curves.insert(curves.end(), earlier.begin(), earlier.end());
     const std::string name = std::filesystem::path(options.picture).filename().string();
-    const bool isAlone = options.against.empty();
+    const bool isAlone = earlier.empty();
     const std::string title = fmt::format(
         "{} as learned by {}", name, isAlone ? result.curve.name : fmt::format("{} networks", curves.size()));
     const std::string network = isAlone ? describe(learner.trainer().network().config()) + ", " : "";
@@ -164,6 +170,7 @@ void fitImage(const FitOptions& options) {
     const LearnerOptions learnerOptions{log2Batch(options.batch), options.seed};
     requireFiles(options);
     const ModelConfig config = chooseNetwork(options);
+    const std::vector<LearningCurve> earlier = readCurves(options.against);
     const Picture picture = loadPicture(options.picture);
     Device device(options.device);
     fmt::print(stderr, "picture {}: {} x {}; device {} ({})\n", options.picture, picture.width,
@@ -178,7 +185,7 @@ void fitImage(const FitOptions& options) {
         writePng(options.png, toDisplay(static_cast<int>(picture.width), static_cast<int>(picture.height),
                                         result.picture));
     if (!options.csv.empty()) writeText(options.csv, toCsv(result.curve));
-    if (!options.chart.empty()) writeChart(result, picture, learner, device, options);
+    if (!options.chart.empty()) writeChart(result, earlier, picture, learner, device, options);
     if (!options.save.empty()) learner.trainer().save(options.save);
     if (!options.json.empty())
         writeText(options.json, numbers(result, picture, learner, device, options).dump(2) + "\n");

@@ -18,6 +18,34 @@ const uint kRowsTogether = kSubgroupSize < kTileRows ? kSubgroupSize : kTileRows
 
 #include "nrc/weight_blocks.glsl"
 
+vec4 gradients[kOutputsTogether / 4u]; // [quad] of the lane's row
+vec4 inputs[kRowsTogether];            // [row] of the lane's quad
+
+// Does nothing, which compilers cannot know: it keeps these arrays in memory (as in mlp_subgroup.glsl).
+void keepInMemory() {
+    if (params.blocks != 0u) return;
+    [[unroll]] for (uint k = 0u; k < 4u; ++k) {
+        gradients[params.counter + k] = vec4(0.0);
+        inputs[params.counter + k] = vec4(0.0);
+    }
+}
+
+void loadRows(Block b, uint row, uint end) {
+    uint gradientRow = row + gl_SubgroupInvocationID % kRowsTogether;
+    [[unroll]] for (uint q = 0u; q < kOutputsTogether / 4u; ++q)
+        gradients[q] = q < b.gradientQuads && gradientRow < end
+                           ? loadQuad(layerGradients, quadIndex(gradientRow, b.gradientQuad + q, kGradientQuads))
+                           : vec4(0.0);
+    // One branch around all of them: of a choice between two loads lavapipe executes both.
+    if (b.isInput)
+        [[unroll]] for (uint r = 0u; r < kRowsTogether; ++r)
+            inputs[r] = loadQuad(encoded, quadIndex(min(row + r, end - 1u), b.activationQuad, kInputQuads));
+    else
+        [[unroll]] for (uint r = 0u; r < kRowsTogether; ++r)
+            inputs[r] = loadQuad(activations, quadIndex(min(row + r, end - 1u), b.activationQuad, kActivationQuads));
+    keepInMemory();
+}
+
 void main() {
     uint index = gl_WorkGroupID.x * gl_NumSubgroups + gl_SubgroupID;
     uint chunk = index / params.blocks;
@@ -29,17 +57,11 @@ void main() {
     vec4 sums[kOutputsTogether];
     [[unroll]] for (uint o = 0u; o < kOutputsTogether; ++o) sums[o] = vec4(0.0);
     for (; row < end; row += kRowsTogether) {
-        vec4 gradients[kOutputsTogether / 4u];
-        vec4 inputs[kRowsTogether];
-        uint gradientRow = row + gl_SubgroupInvocationID % kRowsTogether;
+        loadRows(b, row, end);
+        // Four outputs by four inputs at a time, row by row: as many sums as there are registers for.
         [[unroll]] for (uint q = 0u; q < kOutputsTogether / 4u; ++q)
-            gradients[q] = q < b.gradientQuads && gradientRow < end
-                               ? loadQuad(layerGradients, quadIndex(gradientRow, b.gradientQuad + q, kGradientQuads))
-                               : vec4(0.0);
-        [[unroll]] for (uint r = 0u; r < kRowsTogether; ++r) inputs[r] = activationOf(b, min(row + r, end - 1u));
-        [[unroll]] for (uint o = 0u; o < kOutputsTogether; ++o)
             [[unroll]] for (uint r = 0u; r < kRowsTogether; ++r)
-                sums[o] += subgroupBroadcast(gradients[o / 4u][o % 4u], r) * inputs[r];
+                [[unroll]] for (uint c = 0u; c < 4u; ++c) sums[q * 4u + c] += subgroupBroadcast(gradients[q][c], r) * inputs[r];
     }
     if (b.quad >= b.matrixQuads) return;
     [[unroll]] for (uint o = 0u; o < kOutputsTogether; ++o)

@@ -23,13 +23,14 @@ constexpr uint32_t kMaxBounces = 8;
 struct Picture {
     int size;
     int pilotSamples; // shows how noisy the scene is
+    int sampleStep;   // samples come in multiples of it
     int sampleLimit;  // of a pixel
     bool mustReachSigma;
 };
 
 Picture wantedPicture() {
-    if (std::getenv("IRRADIA_FULL")) return {64, 1024, 1 << 19, true}; // door-room: an hour
-    return {16, 64, 2048, false};
+    if (std::getenv("IRRADIA_FULL")) return {64, 1024, 1024, 1 << 19, true}; // door-room: an hour
+    return {16, 64, 64, 2048, false};
 }
 
 // Most light of door-room comes through the gap between the door's edge and the frame: up to the opposite
@@ -50,17 +51,36 @@ struct Rendered {
 // before: few samples miss the rarest bright paths, and promise too much.
 template <typename Render> // (samples, round) -> ImageEstimate
 Rendered renderUntilQuiet(const Picture& picture, const Render& render) {
-    constexpr int kStep = 64; // samples come in multiples of it
     Rendered all{picture.pilotSamples, render(picture.pilotSamples, 0), 0.0};
     for (uint32_t round = 1;; ++round) {
         all.sigma = reference::medianRelativeSigma(all.image);
-        if (all.sigma <= kMedianSigma || all.samples + kStep > picture.sampleLimit) return all;
+        if (all.sigma <= kMedianSigma || all.samples + picture.sampleStep > picture.sampleLimit) return all;
         const double missing = all.samples * (std::pow(all.sigma / kMedianSigma, 2.0) * kMargin - 1.0);
         const double atMost = std::min(8 * all.samples, picture.sampleLimit - all.samples);
-        const int more = std::max(static_cast<int>(std::min(missing, atMost)) / kStep, 1) * kStep;
+        const int more = std::max(static_cast<int>(std::min(missing, atMost)) / picture.sampleStep, 1) *
+                         picture.sampleStep;
         all.image = reference::merged(all.image, all.samples, render(more, round), more);
         all.samples += more;
     }
+}
+
+// The GPU renders a pixel as kParts x kParts smaller ones, which under a box filter is the same picture: its
+// waves are too small to be fast otherwise.
+constexpr uint32_t kParts = 4;
+
+reference::ImageEstimate ofWholePixels(const reference::ImageEstimate& parts) {
+    reference::ImageEstimate image;
+    image.width = parts.width / int(kParts);
+    image.height = parts.height / int(kParts);
+    image.mean.resize(size_t(image.width) * size_t(image.height));
+    image.variance.resize(image.mean.size());
+    constexpr double kShare = 1.0 / (kParts * kParts);
+    for (size_t i = 0; i < parts.size(); ++i) {
+        const size_t x = i % size_t(parts.width) / kParts, y = i / size_t(parts.width) / kParts;
+        image.mean[y * size_t(image.width) + x] += kShare * parts.mean[i];
+        image.variance[y * size_t(image.width) + x] += kShare * kShare * parts.variance[i];
+    }
+    return image;
 }
 
 void compareWithReference(const std::string& name) {
@@ -84,13 +104,14 @@ void compareWithReference(const std::string& name) {
     Device device(deviceOptions);
     test::GpuRenderer renderer(device, scene);
     const Rendered gpu = renderUntilQuiet(picture, [&](int samples, uint32_t round) {
+        const auto ofPart = static_cast<uint32_t>(samples) / (kParts * kParts);
         PathTracerOptions options;
-        options.width = options.height = static_cast<uint32_t>(picture.size);
+        options.width = options.height = static_cast<uint32_t>(picture.size) * kParts;
         options.maxBounces = kMaxBounces;
         options.seed = 1 + round;
-        options.samplesPerFrame = std::bit_floor(static_cast<uint32_t>(std::clamp(samples / 256, 1, 64)));
-        return test::toEstimate(renderer.render(chosen.camera, options,
-                                                static_cast<uint32_t>(samples) / options.samplesPerFrame));
+        options.samplesPerFrame = std::bit_floor(std::clamp(ofPart / 256, 1u, 64u));
+        return ofWholePixels(
+            test::toEstimate(renderer.render(chosen.camera, options, ofPart / options.samplesPerFrame)));
     });
 
     const reference::ZTestResult result = reference::zTest(gpu.image, cpu.image);

@@ -46,8 +46,8 @@ private:
     WavefrontPathTracer tracer_;
     RadianceCache cache_;
     CacheCounts counts_;
-    Tiles tiles_; // of this frame: one training path each
-    double recordsPerPath_ = 2.0;
+    double recordsPerPath_ = 2.0; // of the last frame
+    Tiles tiles_;                 // of this frame: one training path each
     bool learns_ = true;
 };
 

@@ -119,6 +119,8 @@ void RenderSession::createRenderer(const SceneRecords& records, const Bvh& bvh) 
     options.paths.surfaces = request_.surfaces;
     options.seed = request_.seed;
     const bool hasCache = request_.method != "pt";
+    if (!hasCache && !request_.network.empty())
+        fail(ExitCode::Usage, "--network is for the methods with a cache; --method pt has none");
     if (hasCache) options.config = nrcConfig(request_);
 
     auto plan = plannedBuffers(records, bvh);

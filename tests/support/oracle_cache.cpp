@@ -1,0 +1,125 @@
+#include "tests/support/oracle_cache.h"
+
+#include "kernels/nrc.h"
+#include "shared/network.h"
+#include <bit>
+#include <limits>
+
+namespace irradia::test {
+namespace {
+
+constexpr uint64_t kInputBytes = gpu::kCacheInputQuads * 16;
+
+uint64_t padded(uint64_t rows) {
+    return (std::max<uint64_t>(rows, 1) + gpu::kRowPadding - 1) / gpu::kRowPadding * gpu::kRowPadding;
+}
+
+PathTracerOptions asked(PathTracerOptions options) {
+    options.cached = true;
+    options.waveSize = options.width * options.height;
+    return options;
+}
+
+} // namespace
+
+OracleCache::OracleCache(Device& device, const PathTracerOptions& options, float radiance, uint32_t tilesX,
+                         uint32_t tilesY)
+    : device_(device)
+    , options_(asked(options))
+    , radiance_(radiance)
+    , resolveQueries_(device, kernels::resolve_queries)
+    , propagateTraining_(device, kernels::propagate_training)
+    , queries_(device, "queries", padded(options_.waveSize) * kInputBytes)
+    , queryWeights_(device, "query weights", padded(options_.waveSize) * 16)
+    , predictions_(device, "predictions", padded(options_.waveSize) * 16)
+    , counters_(device, "counters", gpu::kCacheCounters * 4)
+    , state_(makeBuffer(device, "state", std::vector{gpu::CacheState{1.0f, 0, 0, 0, 0, 0, 0, 0}}))
+    , trainingPaths_(device, "training paths", padded(tilesX * tilesY) * gpu::kTrainingPathVectors * 16)
+    , trainingVertices_(device, "training vertices",
+                        padded(tilesX * tilesY) * gpu::kMaxTrainingVertices * gpu::kTrainingVertexVectors *
+                            16)
+    , trainingQueries_(device, "training queries", padded(tilesX * tilesY) * kInputBytes)
+    , pathSums_(device, "path sums", padded(tilesX * tilesY) * 16) {
+    constexpr float kNever = std::numeric_limits<float>::infinity();
+    rule_.boxLow = glm::vec4(-1e6f, -1e6f, -1e6f, 1.0f);
+    rule_.boxHigh = glm::vec4(1e6f, 1e6f, 1e6f, kNever);
+    rule_.endDepth = gpu::kNoDepth;
+    rule_.deepest = options_.maxBounces + 1;
+    rule_.lastDepth = rule_.deepest + 8;
+    rule_.tilesX = tilesX;
+    rule_.tilesY = tilesY;
+    rule_.width = options_.width;
+    rule_.height = options_.height;
+    rule_.trainingSpread = kNever;
+}
+
+FilmImage OracleCache::render(const GpuScene& scene, const Camera& camera, uint32_t frames) {
+    WavefrontPathTracer tracer(device_, scene, options_);
+    for (uint32_t frame = 0; frame < frames; ++frame) {
+        const CachePaths paths{queries_,          queryWeights_,    counters_, trainingPaths_,
+                               trainingVertices_, trainingQueries_, rule_};
+        tracer.beginFrame();
+        tracer.graph().fill(counters_, 0);
+        tracer.graph().fill(trainingPaths_, 0);
+        for (const Wave& wave : tracer.waves()) {
+            tracer.traceWave(camera, wave, frame, 0, &paths);
+            answer(tracer);
+            tracer.addToFilm(wave);
+        }
+        propagate(tracer.graph());
+        tracer.graph().execute();
+        tracer.endFrame();
+    }
+    return tracer.readFilm();
+}
+
+void OracleCache::answer(WavefrontPathTracer& tracer) {
+    tracer.graph().fill(predictions_, std::bit_cast<uint32_t>(radiance_));
+    tracer.graph()
+        .pass(resolveQueries_)
+        .readWrite(counters_)
+        .read(queries_)
+        .read(queryWeights_)
+        .read(predictions_)
+        .read(state_)
+        .readWrite(tracer.radiance())
+        .push(gpu::ResolveParams{0})
+        .dispatch(options_.waveSize);
+}
+
+void OracleCache::propagate(FrameGraph& graph) {
+    graph.pass(propagateTraining_)
+        .readWrite(counters_)
+        .read(trainingPaths_)
+        .readWrite(trainingVertices_)
+        .read(trainingQueries_)
+        .read(predictions_)
+        .read(state_)
+        .write(pathSums_)
+        .push(gpu::RecordsParams{rule_.tilesX * rule_.tilesY, 0, 0, 0.0f})
+        .dispatch(rule_.tilesX * rule_.tilesY);
+}
+
+std::vector<glm::vec3> OracleCache::targets() const {
+    const size_t paths = size_t(rule_.tilesX) * rule_.tilesY;
+    const auto sums = download<glm::uvec4>(device_, pathSums_, paths);
+    const auto vertices = download<glm::vec4>(
+        device_, trainingVertices_, paths * gpu::kMaxTrainingVertices * gpu::kTrainingVertexVectors);
+    std::vector<glm::vec3> targets;
+    for (size_t path = 0; path < paths; ++path)
+        for (size_t v = 0; v < sums[path].x; ++v)
+            targets.emplace_back(
+                vertices[(path * gpu::kMaxTrainingVertices + v) * gpu::kTrainingVertexVectors +
+                         gpu::kGathered]);
+    return targets;
+}
+
+std::vector<glm::vec3> OracleCache::queryWeights() const {
+    const uint32_t count = download<uint32_t>(device_, counters_, 1).front();
+    std::vector<glm::vec3> weights;
+    for (const glm::uvec4& record : download<glm::uvec4>(device_, queryWeights_, count))
+        weights.emplace_back(std::bit_cast<glm::vec4>(record));
+    return weights;
+}
+
+} // namespace irradia::test

@@ -1,0 +1,36 @@
+// A cache that says the same radiance everywhere, in the place of a network: what a path tracer asks and
+// records can then be judged by what it must come to.
+#pragma once
+
+#include "engine/path/wavefront_path_tracer.h"
+#include <vector>
+
+namespace irradia::test {
+
+class OracleCache {
+public:
+    // For pictures of `options`, all of whose pixels are one wave; with one training path a tile.
+    OracleCache(Device& device, const PathTracerOptions& options, float radiance, uint32_t tilesX = 0,
+                uint32_t tilesY = 0);
+
+    gpu::CacheRule& rule() { return rule_; } // never ends paths at first
+    FilmImage render(const GpuScene& scene, const Camera& camera, uint32_t frames);
+
+    // Of the last frame: the targets at all recorded vertices, and the weights of all queries.
+    std::vector<glm::vec3> targets() const;
+    std::vector<glm::vec3> queryWeights() const;
+
+private:
+    void answer(WavefrontPathTracer& tracer);
+    void propagate(FrameGraph& graph);
+
+    Device& device_;
+    PathTracerOptions options_;
+    float radiance_;
+    gpu::CacheRule rule_{};
+    Kernel resolveQueries_, propagateTraining_;
+    Buffer queries_, queryWeights_, predictions_, counters_, state_;
+    Buffer trainingPaths_, trainingVertices_, trainingQueries_, pathSums_;
+};
+
+} // namespace irradia::test

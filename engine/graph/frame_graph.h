@@ -64,8 +64,8 @@ public:
     // (which changes no result) and waits for each submission, so that no watchdog sees a long one.
     void cut();
 
-    // How long one submission may take before execute() gives the device up (60 s; first runs include
-    // compiling).
+    // How long one submission may take before execute() gives the device up: 60 s; on a CPU 600 s, which
+    // others may keep busy while it compiles.
     void setTimeout(double seconds);
 
     // Records, submits, waits; then the graph is empty again. Kernels and buffers must live until it returns.

@@ -13,6 +13,7 @@ struct FrameGraph::State {
     State(Device& d, Profiler* p)
         : device(d)
         , profiler(p)
+        , timeoutSeconds(d.isCpu() ? 600 : 60)
         , sets(d)
         , timestamps(d)
         , progress(d) {}
@@ -30,7 +31,7 @@ struct FrameGraph::State {
 
     Device& device;
     Profiler* profiler;
-    double timeoutSeconds = 60;
+    double timeoutSeconds;
     std::vector<PassRecord> passes;
     bool cutNext = false;
     std::string section; // of the passes to come

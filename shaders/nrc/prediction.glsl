@@ -12,10 +12,10 @@ const float kMinReflectance = 1e-3;
 
 // Radiance is never negative; a prediction that is no number is none.
 vec3 toRadiance(vec3 prediction, vec3 factor) {
-    vec3 l = max(prediction, vec3(0.0)) * factor / cacheState.scale;
-    bool finite = all(lessThan(l, vec3(1e15)));
+    vec3 l = prediction * factor / cacheState.scale;
+    bool finite = all(lessThan(abs(l), vec3(1e15))); // before max, which makes 0 of NaN
     if (!finite) atomicAdd(counters[kClampedPredictions], 1u);
-    return finite ? l : vec3(0.0);
+    return finite ? max(l, vec3(0.0)) : vec3(0.0);
 }
 
 vec3 toTarget(vec3 l, vec3 factor) {

@@ -30,7 +30,7 @@ void main() {
         l = trainingVertices[at + kGathered].rgb + trainingVertices[at + kThroughput].rgb * l;
         trainingVertices[at + kGathered].rgb = l;
         float y = luminance(l);
-        sum += y < 1e15 ? y : 0.0; // what is not finite the trainer drops and counts
+        sum += abs(y) < 1e15 ? y : 0.0; // what is not finite the trainer drops and counts
         largest = max(largest, y);
     }
     storeRecord(pathSums, path, uvec4(vertices, floatBitsToUint(sum), floatBitsToUint(largest), 0u));

@@ -27,10 +27,10 @@ public:
         }
     }
 
-    CacheWalk walk(bool isUnbiased, bool goesPastQuery) {
+    CacheWalk walk(bool isUnbiased, const std::function<bool(size_t)>& goesPastQuery) {
         const size_t query = findQuery();
         if (query < reached_) {
-            const double share = goesPastQuery ? 1.0 - 1.0 / settings_.residualShare : 1.0;
+            const double share = goesPastQuery(query) ? 1.0 - 1.0 / settings_.residualShare : 1.0;
             result_.query = {cacheInputs(path_[query], settings_.box),
                              throughputBetween(path_, 0, query) * share};
         }
@@ -126,7 +126,7 @@ double areaSpread(const std::vector<CacheVertex>& path, size_t from, size_t to) 
 }
 
 CacheWalk walk(const std::vector<CacheVertex>& path, const CacheSettings& settings, bool isUnbiased,
-               bool goesPastQuery) {
+               const std::function<bool(size_t)>& goesPastQuery) {
     return Walker(path, settings).walk(isUnbiased, goesPastQuery);
 }
 

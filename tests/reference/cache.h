@@ -6,6 +6,7 @@
 #include "tests/reference/encodings.h"
 #include "tests/reference/math.h"
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -75,9 +76,10 @@ struct CacheWalk {
     bool isUncertain = false; // a spread is so near its threshold that rounding decides
 };
 
-// `isUnbiased`: the suffix is not ended by its spread; `goesPastQuery`: it was chosen for the residual.
+// `isUnbiased`: the suffix is not ended by its spread; `goesPastQuery`: whether a path that asks at the
+// vertex is chosen for the residual.
 CacheWalk walk(const std::vector<CacheVertex>& path, const CacheSettings& settings, bool isUnbiased,
-               bool goesPastQuery);
+               const std::function<bool(size_t)>& goesPastQuery);
 
 // ---- predictions and targets ----
 

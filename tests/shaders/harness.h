@@ -47,5 +47,27 @@ struct LightHarnessParams {
     uint pad;
 };
 
+// The pixels of `frames` frames, one after the other.
+struct CacheTilesParams {
+    uint width;
+    uint height;
+    uint tilesX;
+    uint tilesY;
+    uint frames;
+    uint seed;
+};
+
+// Follows the CacheRule.
+struct CacheWalkParams {
+    uint paths;
+    uint depths; // vertices of each
+    uint sampleIndex;
+    uint seed;
+};
+// Of each vertex: position, distance; view, pdf; geometric normal, roughness; shading normal, the BSDF's
+// alpha; diffuse, 1 as uint bits where the path goes on; specular; throughput; light that arrives; emission
+// that the next ray meets.
+SHARED_CONST uint kWalkVertexRecords = 9u;
+
 SHARED_END
 #endif

@@ -2,6 +2,7 @@
 
 #include "kernels/nrc.h"
 #include "shared/network.h"
+#include "tests/support/cache_buffers.h"
 #include <bit>
 #include <limits>
 
@@ -100,17 +101,18 @@ void OracleCache::propagate(FrameGraph& graph) {
         .dispatch(rule_.tilesX * rule_.tilesY);
 }
 
-std::vector<glm::vec3> OracleCache::targets() const {
+std::vector<reference::TrainingPath> OracleCache::trainingPaths() const {
     const size_t paths = size_t(rule_.tilesX) * rule_.tilesY;
-    const auto sums = download<glm::uvec4>(device_, pathSums_, paths);
-    const auto vertices = download<glm::vec4>(
-        device_, trainingVertices_, paths * gpu::kMaxTrainingVertices * gpu::kTrainingVertexVectors);
+    const auto all = [&](const Buffer& buffer) {
+        return download<glm::uvec4>(device_, buffer, buffer.bytes() / sizeof(glm::uvec4));
+    };
+    return unpackPaths({all(trainingPaths_), all(trainingVertices_), all(trainingQueries_)}, paths);
+}
+
+std::vector<glm::vec3> OracleCache::targets() const {
     std::vector<glm::vec3> targets;
-    for (size_t path = 0; path < paths; ++path)
-        for (size_t v = 0; v < sums[path].x; ++v)
-            targets.emplace_back(
-                vertices[(path * gpu::kMaxTrainingVertices + v) * gpu::kTrainingVertexVectors +
-                         gpu::kGathered]);
+    for (const reference::TrainingPath& path : trainingPaths())
+        for (const reference::TrainingVertex& v : path.vertices) targets.emplace_back(v.gathered);
     return targets;
 }
 

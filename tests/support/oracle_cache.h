@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/path/wavefront_path_tracer.h"
+#include "tests/reference/cache.h"
 #include <vector>
 
 namespace irradia::test {
@@ -16,7 +17,9 @@ public:
     gpu::CacheRule& rule() { return rule_; } // never ends paths at first
     FilmImage render(const GpuScene& scene, const Camera& camera, uint32_t frames);
 
-    // Of the last frame: the targets at all recorded vertices, and the weights of all queries.
+    // Of the last frame: its training paths, gathered light being the targets; the targets at all recorded
+    // vertices; the weights of all queries.
+    std::vector<reference::TrainingPath> trainingPaths() const;
     std::vector<glm::vec3> targets() const;
     std::vector<glm::vec3> queryWeights() const;
 

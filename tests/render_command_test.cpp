@@ -86,6 +86,56 @@ TEST_CASE("stats say what a frame cost") {
     CHECK(std::filesystem::file_size(folder / "o.png") > 100);
 }
 
+TEST_CASE("a scripted change takes place at its frame, and the film begins anew where it is told to") {
+    const TemporaryFolder folder;
+    const std::string script = (folder / "changes.json").string();
+    const std::string base = "render " + kScenes + "cornell-box.glb --size 16x16 --max-bounces 2 -o ";
+    const auto render = [&](const std::string& more) {
+        const std::string file = (folder / "frames.exr").string();
+        REQUIRE(run("", base + file + more).code == 0);
+        return readExr(file);
+    };
+    std::ofstream(script) << R"([{"frame": 3, "emissive_strength": {"material": "light", "value": 0}},
+        {"frame": 5, "emissive_strength": {"material": "light", "value": 4}, "restart": true}])";
+    const std::string changes = " --changes " + script;
+    // Frame 3 is the second after two of warm-up.
+    const auto before = render(" --warmup 2 --frames 2-3" + changes).channels.at("G");
+    CHECK(before == render(" --frames 2-3").channels.at("G"));
+    const auto dark = render(" --warmup 2 --frames 3-4" + changes),
+               off = render(" --warmup 3 --frames 3-4" + changes);
+    CHECK(dark.channels.at("G") != off.channels.at("G"));
+    for (const float v : off.channels.at("G")) CHECK(v == 0.0f);
+    const LayeredImage again = render(" --frames 0-6" + changes);
+    CHECK(again.attributes.at("irradia.frames") == "5-6");
+    CHECK(again.channels.at("SampleCount.V")[0] == 1.0f);
+}
+
+TEST_CASE("a script that cannot be used is refused in a sentence") {
+    const TemporaryFolder folder;
+    const std::string script = (folder / "changes.json").string();
+    const std::pair<const char*, const char*> cases[] = {
+        {"{}", "must be a list"},
+        {"[{}]", "changes[0].frame is missing"},
+        {R"([{"frame": 1, "emissive_strength": {"material": "nobody", "value": 0}}])",
+         "the name of a material"},
+        {R"([{"frame": 1, "emissive_strength": {"material": "light"}}])",
+         "changes[0].emissive_strength.value"},
+        {R"([{"frame": 1}, {"frame": 1, "camera": {"position": [0, 0, 0]}}])", "changes[1].camera.look_at"},
+        {R"([{"frame": 1, "environment": 2}])", "no environment to scale"},
+        {R"([{"frame": 1, "restart": 1}])", "true or false"},
+        {R"([{"frame": 1, "lamp": 1}])", "unknown key changes[0].lamp"},
+    };
+    for (const auto& [text, sentence] : cases) {
+        std::ofstream(script) << text;
+        const Run result = run("", "render " + kScenes + "cornell-box.glb -o " + (folder / "o.exr").string() +
+                                       " --changes " + script);
+        INFO(result.log);
+        CHECK(result.code == 65);
+        CHECK(result.log.find(sentence) != std::string::npos);
+    }
+    CHECK(run("", "render " + kScenes + "cornell-box.glb -o o.exr --changes nowhere.json").code == 66);
+}
+
 TEST_CASE("bad input ends in a sentence and an exit code, and leaves the old file") {
     const TemporaryFolder folder;
     const std::string scene = kScenes + "cornell-box.glb";

@@ -13,11 +13,11 @@ using Json = nlohmann::json;
 
 // "camera.json: camera.position" for errors.
 struct Field {
-    const std::filesystem::path& file;
+    const std::string& file;
     std::string name;
 
     [[noreturn]] void refuse(const std::string& need) const {
-        fail(ExitCode::BadData, "{}: '{}' must be {}", file.string(), name, need);
+        fail(ExitCode::BadData, "{}: '{}' must be {}", file, name, need);
     }
 };
 
@@ -32,39 +32,11 @@ glm::dvec3 vector(const Json& value, const Field& field) {
     return result;
 }
 
-const Json& member(const Json& object, const std::string& key, const std::filesystem::path& file) {
-    if (!object.contains(key)) fail(ExitCode::BadData, "{}: 'camera.{}' is missing", file.string(), key);
-    return object[key];
-}
-
-Camera readCamera(const Json& json, const std::filesystem::path& file) {
-    const auto read = [&](const std::string& key) {
-        return vector(member(json, key, file), {file, "camera." + key});
-    };
-    const glm::dvec3 position = read("position");
-    const glm::dvec3 forward = read("look_at") - position;
-    const glm::dvec3 right = glm::cross(forward, json.contains("up") ? read("up") : glm::dvec3(0, 1, 0));
-    if (!(glm::length(forward) > 0)) Field{file, "camera.look_at"}.refuse("another point than the position");
-    if (!(glm::length(right) > 1e-9 * glm::length(forward)))
-        Field{file, "camera.up"}.refuse("a direction across the view");
-    const Json& fov = member(json, "vfov_deg", file);
-    if (!fov.is_number() || !(fov.get<double>() > 1e-4 && fov.get<double>() < 180))
-        Field{file, "camera.vfov_deg"}.refuse("an angle between 0 and 180 degrees");
-
-    Camera camera;
-    camera.name = file.stem().string();
-    camera.position = position;
-    camera.forward = glm::normalize(forward);
-    camera.up = glm::normalize(glm::cross(right, forward));
-    camera.verticalFov = static_cast<float>(glm::radians(fov.get<double>()));
-    return camera;
-}
-
 // A path beside the file, a colour as "r,g,b", or nothing.
 std::string readEnvironment(const Json& value, const std::filesystem::path& file) {
     if (value.is_null()) return {};
     if (value.is_string()) return (file.parent_path() / value.get<std::string>()).string();
-    const glm::dvec3 colour = vector(value, {file, "env"});
+    const glm::dvec3 colour = vector(value, {file.string(), "env"});
     return fmt::format("{},{},{}", colour.x, colour.y, colour.z);
 }
 
@@ -76,6 +48,34 @@ std::string cameraNames(const Scene& scene) {
 
 } // namespace
 
+Camera parseCamera(const Json& json, const std::string& file, const std::string& path) {
+    const auto member = [&](const std::string& key) -> const Json& {
+        if (!json.contains(key)) fail(ExitCode::BadData, "{}: '{}.{}' is missing", file, path, key);
+        return json[key];
+    };
+    const auto refuse = [&](const std::string& key, const std::string& need) {
+        Field{file, path + "." + key}.refuse(need);
+    };
+    const auto read = [&](const std::string& key) { return vector(member(key), {file, path + "." + key}); };
+    if (!json.is_object()) Field{file, path}.refuse("an object");
+    const glm::dvec3 position = read("position");
+    const glm::dvec3 forward = read("look_at") - position;
+    const glm::dvec3 right = glm::cross(forward, json.contains("up") ? read("up") : glm::dvec3(0, 1, 0));
+    if (!(glm::length(forward) > 0)) refuse("look_at", "another point than the position");
+    if (!(glm::length(right) > 1e-9 * glm::length(forward))) refuse("up", "a direction across the view");
+    const Json& fov = member("vfov_deg");
+    if (!fov.is_number() || !(fov.get<double>() > 1e-4 && fov.get<double>() < 180))
+        refuse("vfov_deg", "an angle between 0 and 180 degrees");
+
+    Camera camera;
+    camera.name = std::filesystem::path(file).stem().string();
+    camera.position = position;
+    camera.forward = glm::normalize(forward);
+    camera.up = glm::normalize(glm::cross(right, forward));
+    camera.verticalFov = static_cast<float>(glm::radians(fov.get<double>()));
+    return camera;
+}
+
 CameraFile loadCameraFile(const std::filesystem::path& file) {
     const gltf::SourceFile source = gltf::openSource(file);
     const char* text = reinterpret_cast<const char*>(source.bytes.data());
@@ -83,7 +83,7 @@ CameraFile loadCameraFile(const std::filesystem::path& file) {
     const Json json = Json::parse(text, text + source.bytes.size());
     if (!json.is_object() || !json.contains("camera") || !json["camera"].is_object())
         fail(ExitCode::BadData, "{}: there is no object 'camera'", file.string());
-    return {readCamera(json["camera"], file),
+    return {parseCamera(json["camera"], file.string(), "camera"),
             json.contains("env") ? readEnvironment(json["env"], file) : std::string()};
 }
 

@@ -73,6 +73,7 @@ private:
         const Extension extension = find("KHR_materials_emissive_strength");
         const double strength = extension ? plain(*extension, "emissiveStrength", 1) : 1.0;
         std::vector<double> radiance = from_.emissiveFactor;
+        material.emissiveFactor = colour("emissiveFactor", radiance, kMaxRadiance);
         for (double& channel : radiance) channel *= strength;
         material.emission = colour("emissiveFactor x emissiveStrength", radiance, kMaxRadiance);
         material.emissiveTexture = texture(from_.emissiveTexture.index, from_.emissiveTexture.texCoord);

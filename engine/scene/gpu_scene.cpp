@@ -1,5 +1,7 @@
 #include "engine/scene/gpu_scene.h"
 
+#include "engine/error.h"
+#include "engine/scene/light_records.h"
 #include "engine/scene/reflectance_table.h"
 #include <algorithm>
 
@@ -39,9 +41,48 @@ GpuScene uploadScene(Device& device, const SceneRecords& records, const Bvh& bvh
     scene.lightCount = static_cast<uint32_t>(records.lights.size());
     scene.environmentWidth = std::max(records.environmentWidth, 1u);
     scene.environmentHeight = std::max(records.environmentHeight, 1u);
-    scene.environmentProbability = records.needs.environment ? (records.needs.emitters ? 0.5f : 1.0f) : 0.0f;
+    scene.environmentProbability = records.environmentProbability;
+    scene.states = records.states;
     scene.rayEpsilon = rayEpsilon(bounds);
     return scene;
+}
+
+namespace {
+
+void requirePlanned(const Scene& state, const GpuScene& scene) {
+    PlannedStates all = scene.states;
+    all.include(state);
+    if (all.emitters != scene.states.emitters || all.environment != scene.states.environment ||
+        all.specular != scene.states.specular)
+        fail(ExitCode::Internal, "scene '{}': it was not planned that its {} change so", state.name,
+             all.emitters != scene.states.emitters ? "lamps" : "environment or materials");
+}
+
+void updateMaterials(Device& device, const Scene& state, GpuScene& scene) {
+    auto records =
+        download<glm::uvec4>(device, scene.materials, state.materials.size() * gpu::kMaterialRecords);
+    for (size_t i = 0; i < state.materials.size(); ++i)
+        std::ranges::copy(packMaterialValues(state.materials[i]),
+                          records.begin() + static_cast<std::ptrdiff_t>(i * gpu::kMaterialRecords));
+    upload<glm::uvec4>(device, scene.materials, records);
+}
+
+} // namespace
+
+void updateScene(Device& device, const Scene& state, GpuScene& scene) {
+    requirePlanned(state, scene);
+    if (!state.materials.empty()) updateMaterials(device, state, scene);
+    std::vector<glm::uvec4> lights;
+    packLights(state, scene.states.emitters, lights);
+    if (!lights.empty()) upload<glm::uvec4>(device, scene.lights, lights);
+    scene.environmentProbability = environmentProbability(state, scene.needs);
+    if (!scene.needs.environment) return;
+    SceneRecords records;
+    packEnvironment(state.environment, records);
+    scene.environment = makeBuffer(device, "environment", records.environment);
+    scene.environmentAlias = makeBuffer(device, "environment alias table", records.environmentAlias);
+    scene.environmentWidth = records.environmentWidth;
+    scene.environmentHeight = records.environmentHeight;
 }
 
 } // namespace irradia

@@ -26,6 +26,7 @@ struct GpuScene {
     uint32_t environmentWidth = 1;
     uint32_t environmentHeight = 1;
     float environmentProbability = 0.0f; // of a light sample going to the environment
+    PlannedStates states;                // that updateScene may bring it to
     float rayEpsilon = 0.0f;             // length by which ray origins leave their surface
 };
 
@@ -37,5 +38,11 @@ float rayEpsilon(const Bounds& bounds);
 std::vector<Device::PlannedBuffer> plannedBuffers(const SceneRecords& records, const Bvh& bvh);
 
 GpuScene uploadScene(Device& device, const SceneRecords& records, const Bvh& bvh, const Bounds& bounds);
+
+// Brings a scene on the device to another state of its materials' values (colours, roughness, emission; not
+// their textures) and of its environment: lights get their new powers, the needs stay. Between graph
+// executions. Geometry, textures and the materials' number are those that were uploaded. Throws
+// Error(Internal) where the state is not among those planned for packScene.
+void updateScene(Device& device, const Scene& state, GpuScene& scene);
 
 } // namespace irradia

@@ -23,18 +23,6 @@ glm::dvec3 meanColor(const TextureImage& image) {
     return sum / std::max(1.0, double(image.rgba.size() / 4));
 }
 
-// Mean luminance that one side of each material emits, times the number of sides that do.
-std::vector<double> emissiveLuminances(const Scene& scene) {
-    std::vector<double> result;
-    for (const Material& m : scene.materials) {
-        glm::dvec3 emission(m.emission);
-        if (emission != glm::dvec3(0.0) && m.emissiveTexture.image >= 0)
-            emission *= meanColor(scene.images[m.emissiveTexture.image]);
-        result.push_back(luminance(emission) * (m.doubleSided ? 2.0 : 1.0));
-    }
-    return result;
-}
-
 glm::dvec3 texel(const Environment& e, int x, int y) {
     const int wrapped = (x % e.width + e.width) % e.width;
     const int clamped = std::clamp(y, 0, e.height - 1);
@@ -54,14 +42,35 @@ double meanLuminance(const Environment& e, int x, int y) {
 
 } // namespace
 
-std::vector<uint32_t> packLights(const Scene& scene, std::vector<glm::uvec4>& lights) {
+std::vector<double> emissiveLuminances(const Scene& scene) {
+    std::vector<double> result;
+    for (const Material& m : scene.materials) {
+        glm::dvec3 emission(m.emission);
+        if (emission != glm::dvec3(0.0) && m.emissiveTexture.image >= 0)
+            emission *= meanColor(scene.images[m.emissiveTexture.image]);
+        result.push_back(luminance(emission) * (m.doubleSided ? 2.0 : 1.0));
+    }
+    return result;
+}
+
+float environmentProbability(const Scene& scene, const SceneNeeds& needs) {
+    if (!needs.environment) return 0.0f;
+    const std::vector<double> luminances = emissiveLuminances(scene);
+    const bool shines =
+        std::ranges::any_of(scene.triangles, [&](const Triangle& t) { return luminances[t.material] > 0.0; });
+    if (!needs.emitters || !shines) return 1.0f;
+    return scene.environment.isBlack() ? 0.0f : 0.5f;
+}
+
+std::vector<uint32_t> packLights(const Scene& scene, const std::vector<bool>& emitters,
+                                 std::vector<glm::uvec4>& lights) {
     const std::vector<double> luminances = emissiveLuminances(scene);
     std::vector<uint32_t> lightOf(scene.triangles.size(), gpu::kNoLight);
     std::vector<double> powers;
     std::vector<uint32_t> primitives;
     for (size_t i = 0; i < scene.triangles.size(); ++i) {
         const Triangle& t = scene.triangles[i];
-        if (!(luminances[t.material] > 0.0)) continue;
+        if (!emitters[t.material]) continue;
         const glm::dvec3 p0(scene.vertices[t.vertex.x].position);
         const double area =
             0.5 * glm::length(glm::cross(glm::dvec3(scene.vertices[t.vertex.y].position) - p0,

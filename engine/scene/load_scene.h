@@ -3,6 +3,7 @@
 
 #include "engine/scene/scene.h"
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 
 namespace irradia {
 
@@ -21,6 +22,8 @@ struct CameraFile {
         environment; // what loadEnvironment takes, with the path resolved beside the file; empty if none
 };
 CameraFile loadCameraFile(const std::filesystem::path& file);
+// Its object "camera", which stands at `path` of the file that errors name.
+Camera parseCamera(const nlohmann::json& camera, const std::string& file, const std::string& path);
 
 // The camera named by --camera: a name, an index or a .json file; empty = the scene's first, else a framing.
 CameraFile chooseCamera(const Scene& scene, const std::string& choice);

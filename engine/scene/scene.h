@@ -35,7 +35,8 @@ struct Material {
     float metallic = 1.0f;
     float roughness = 1.0f; // perceptual; alpha = roughness^2
     float normalScale = 1.0f;
-    glm::vec3 emission{0.0f}; // emissiveFactor * emissiveStrength, radiance
+    glm::vec3 emission{0.0f};       // emissiveFactor * emissiveStrength, radiance
+    glm::vec3 emissiveFactor{0.0f}; // as the file has it: emission at strength 1
     float ior = 1.5f;
     float specular = 1.0f;         // KHR_materials_specular, specularFactor
     glm::vec3 specularColor{1.0f}; // KHR_materials_specular, specularColorFactor

@@ -66,31 +66,32 @@ void packAttributes(const Scene& scene, SceneRecords& out) {
     }
 }
 
+bool isSpecular(const Material& m) {
+    return m.specular > 0.0f || m.metallic > 0.0f;
+}
+
 void packMaterials(const Scene& scene, SceneRecords& out) {
     TexturePacker packer(scene);
     const auto use = [&](const TextureRef& ref, bool srgb, uint32_t bit) {
         if (ref.image >= 0) out.needs.textures |= bit;
         return packer.add(ref, srgb);
     };
-    for (const Material& m : scene.materials) {
-        const float r = (m.ior - 1.0f) / (m.ior + 1.0f);
-        out.materials.push_back(record(glm::vec4(m.baseColor, m.metallic)));
-        out.materials.push_back(record(glm::vec4(m.emission, m.roughness)));
-        out.materials.push_back(record(glm::vec4(r * r * m.specularColor, m.specular)));
-        out.materials.emplace_back(bits(m.normalScale), m.doubleSided ? gpu::kMaterialDoubleSided : 0u, 0u,
-                                   0u);
+    for (size_t i = 0; i < scene.materials.size(); ++i) {
+        const Material& m = scene.materials[i];
+        const auto values = packMaterialValues(m);
+        out.materials.insert(out.materials.end(), values.begin(), values.end());
         const uint32_t base = use(m.baseColorTexture, true, gpu::kBaseColorTexture);
         const uint32_t rough = use(m.metallicRoughnessTexture, false, gpu::kMetallicRoughnessTexture);
         const uint32_t normal = use(m.normalTexture, false, gpu::kNormalTexture);
-        const bool emits = m.emission != glm::vec3(0.0f);
+        const bool emits = m.emission != glm::vec3(0.0f) || out.states.emitters[i];
         const uint32_t emissive =
             emits ? use(m.emissiveTexture, true, gpu::kEmissiveTexture) : gpu::kNoTexture;
         const uint32_t specular = use(m.specularTexture, false, gpu::kSpecularTexture);
         const uint32_t color = use(m.specularColorTexture, true, gpu::kSpecularColorTexture);
         out.materials.emplace_back(base, rough, normal, emissive);
         out.materials.emplace_back(specular, color, 0u, 0u);
-        out.needs.specular |= m.specular > 0.0f || m.metallic > 0.0f;
     }
+    out.needs.specular = out.states.specular;
     packer.pack(kMaxBindingBytes / sizeof(glm::uvec2), out.textures, out.texels, out.warnings);
 }
 
@@ -104,15 +105,33 @@ void requireBinding(const std::vector<T>& part, const char* what) {
 
 } // namespace
 
-SceneRecords packScene(const Scene& scene) {
+void PlannedStates::include(const Scene& state) {
+    const std::vector<double> luminances = emissiveLuminances(state);
+    emitters.resize(luminances.size(), false);
+    for (size_t i = 0; i < luminances.size(); ++i) emitters[i] = emitters[i] || luminances[i] > 0.0;
+    environment |= !state.environment.isBlack();
+    for (const Material& material : state.materials) specular |= isSpecular(material);
+}
+
+std::array<glm::uvec4, kMaterialValueRecords> packMaterialValues(const Material& m) {
+    const float r = (m.ior - 1.0f) / (m.ior + 1.0f);
+    return {record(glm::vec4(m.baseColor, m.metallic)), record(glm::vec4(m.emission, m.roughness)),
+            record(glm::vec4(r * r * m.specularColor, m.specular)),
+            glm::uvec4(bits(m.normalScale), m.doubleSided ? gpu::kMaterialDoubleSided : 0u, 0u, 0u)};
+}
+
+SceneRecords packScene(const Scene& scene, const PlannedStates& states) {
     SceneRecords out;
-    const std::vector<uint32_t> lightOf = packLights(scene, out.lights);
+    out.states = states;
+    out.states.include(scene);
+    const std::vector<uint32_t> lightOf = packLights(scene, out.states.emitters, out.lights);
     out.needs.emitters = !out.lights.empty();
     packMaterials(scene, out);
     packGeometry(scene, lightOf, out);
     if (out.needs.textures != 0) packAttributes(scene, out);
-    out.needs.environment = !scene.environment.isBlack();
+    out.needs.environment = out.states.environment;
     if (out.needs.environment) packEnvironment(scene.environment, out);
+    out.environmentProbability = environmentProbability(scene, out.needs);
     requireBinding(out.geometry, "geometry");
     requireBinding(out.attributes, "texture coordinates");
     requireBinding(out.environment, "environment");

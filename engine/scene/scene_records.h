@@ -3,6 +3,7 @@
 
 #include "engine/scene/scene.h"
 #include "shared/scene.h"
+#include <array>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,16 @@ struct SceneNeeds {
     bool emitters = false;    // emissive triangles
     uint32_t textures = 0;    // mask of gpu::kBaseColorTexture, ...
     bool specular = false;
+};
+
+// States that a scene on a device will take (its geometry and pictures stay as they are): so that its lights
+// and kernels have room for all of them. Include each state; that which is packed counts by itself.
+struct PlannedStates {
+    std::vector<bool> emitters; // a material that emits in some state; empty = none
+    bool environment = false;   // light from outside in some state
+    bool specular = false;
+
+    void include(const Scene& state);
 };
 
 struct SceneRecords {
@@ -28,13 +39,19 @@ struct SceneRecords {
     uint32_t environmentWidth = 0;
     uint32_t environmentHeight = 0;
     SceneNeeds needs;
-    std::vector<std::string> warnings; // textures that were made smaller to fit
+    float environmentProbability = 0.0f; // of a light sample going to the environment
+    PlannedStates states;                // this one among them
+    std::vector<std::string> warnings;   // textures that were made smaller to fit
 };
 
 // Most bytes one binding may hold (lavapipe's limit on storage buffers).
 inline constexpr uint64_t kMaxBindingBytes = 128ull << 20;
 
 // Throws Error(OutOfMemory) naming the part that does not fit one binding.
-SceneRecords packScene(const Scene& scene);
+SceneRecords packScene(const Scene& scene, const PlannedStates& states = {});
+
+// The first records of a material: all but its textures.
+inline constexpr uint32_t kMaterialValueRecords = 4;
+std::array<glm::uvec4, kMaterialValueRecords> packMaterialValues(const Material& material);
 
 } // namespace irradia

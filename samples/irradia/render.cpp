@@ -22,7 +22,7 @@ struct RenderOptions {
 };
 
 // Options of the design that later versions bring: known, and refused in one sentence.
-constexpr const char* kLaterOptions[] = {"--view",        "--changes",   "--model",     "--at",
+constexpr const char* kLaterOptions[] = {"--view",        "--model",     "--at",
                                          "--camera-path", "--reference", "--checkpoint"};
 constexpr const char* kLaterFlags[] = {"--denoise", "--sequence", "--resume"};
 
@@ -42,7 +42,8 @@ FrameRange parseFrames(const std::string& text) {
     fail(ExitCode::Usage, "--frames {}: not a number of frames from 1, nor a range A-B with A < B", text);
 }
 
-void renderFrames(RenderSession& session, const RenderOptions& options) {
+// Returns the number after the last frame's.
+uint32_t renderFrames(RenderSession& session, const RenderOptions& options) {
     const FrameRange range = parseFrames(options.frames);
     const auto start = std::chrono::steady_clock::now();
     const auto elapsed = [&] {
@@ -52,22 +53,24 @@ void renderFrames(RenderSession& session, const RenderOptions& options) {
     for (uint32_t i = options.warmup; i > 0; --i) session.renderFrame(range.first - i);
     if (options.warmup > 0) session.endWarmup();
     ProgressMeter progress("render", options.progress);
+    uint32_t frame = range.first;
     if (options.seconds > 0.0) {
-        for (uint32_t frame = range.first; elapsed() < options.seconds; ++frame) {
+        for (; elapsed() < options.seconds; ++frame) {
             session.renderFrame(frame);
             progress.update(std::min(elapsed() / options.seconds, 1.0));
         }
     } else {
-        for (uint32_t frame = range.first; frame < range.end; ++frame) {
+        for (; frame < range.end; ++frame) {
             session.renderFrame(frame);
             progress.update(double(frame + 1 - range.first) / (range.end - range.first));
         }
     }
     progress.finish();
+    return frame;
 }
 
 // Everything that decides the picture, so that it can be made again.
-void describe(LayeredImage& image, RenderSession& session, uint32_t frames, uint32_t firstFrame) {
+void describe(LayeredImage& image, RenderSession& session, uint32_t frames, uint32_t endFrame) {
     const RenderRequest& request = session.request();
     auto& a = image.attributes;
     a["irradia.version"] = IRRADIA_VERSION;
@@ -79,22 +82,22 @@ void describe(LayeredImage& image, RenderSession& session, uint32_t frames, uint
     a["irradia.sceneHash"] = fmt::format("{:016x}", session.scene().contentHash);
     a["irradia.method"] = request.method;
     a["irradia.seed"] = std::to_string(request.seed);
-    a["irradia.frames"] = fmt::format("{}-{}", firstFrame, firstFrame + frames);
-    a["irradia.options"] =
-        fmt::format("--size {} --spp {} --max-bounces {} --camera '{}' --env '{}'", request.size,
-                    request.samplesPerFrame, request.maxBounces, request.camera, request.environment);
+    a["irradia.frames"] = fmt::format("{}-{}", endFrame - frames, endFrame);
+    a["irradia.options"] = fmt::format(
+        "--size {} --spp {} --max-bounces {} --camera '{}' --env '{}' --changes '{}'", request.size,
+        request.samplesPerFrame, request.maxBounces, request.camera, request.environment, request.changes);
 }
 
 void render(const RenderOptions& options) {
-    const FrameRange range = parseFrames(options.frames);
+    parseFrames(options.frames);
     for (const std::string& file : {options.output, options.png, options.stats})
         if (!file.empty()) requireWritable(file);
     RenderSession session(options.request);
-    renderFrames(session, options);
+    const uint32_t end = renderFrames(session, options);
 
     const FilmImage film = session.tracer().readFilm();
     LayeredImage image = toLayers(film);
-    describe(image, session, film.frames, range.first);
+    describe(image, session, film.frames, end);
     writeExr(options.output, image);
     if (!options.png.empty()) writePng(options.png, toDisplay(film.width, film.height, film.mean));
     if (!options.stats.empty()) {
@@ -130,6 +133,14 @@ void addRender(CLI::App& program) {
         ->check(CLI::Range(0u, 1000000u))
         ->group("Frames")
         ->capture_default_str();
+    command
+        ->add_option(
+            "--changes", options->request.changes,
+            "JSON list of changes: {\"frame\": k} and any of \"emissive_strength\": {\"material\", "
+            "\"value\"}, \"material\": {\"name\", \"base_color\", \"roughness\", \"metallic\"}, "
+            "\"environment\": [r,g,b] or a factor, \"camera\": {...}, \"restart\": true (of the film); "
+            "frame 0 is the first rendered, warm-up included")
+        ->group("Frames");
     addProgressOption(*command, options->progress);
     for (const char* name : kLaterOptions)
         command

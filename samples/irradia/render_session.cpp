@@ -98,7 +98,8 @@ RenderSession::RenderSession(const RenderRequest& request)
     const std::string& environment = request.environment.empty() ? chosen.environment : request.environment;
     if (!environment.empty()) scene_.environment = loadEnvironment(environment);
 
-    const SceneRecords records = packScene(scene_);
+    if (!request.changes.empty()) changes_ = ScriptedChanges(request.changes, scene_);
+    const SceneRecords records = packScene(scene_, changes_.states(scene_));
     reportScene(scene_, records.warnings);
     const Bvh bvh = buildBvh(scene_);
     device_ = std::make_unique<Device>(request_.device);
@@ -136,7 +137,20 @@ void RenderSession::createRenderer(const SceneRecords& records, const Bvh& bvh) 
         tracer_ = std::make_unique<WavefrontPathTracer>(*device_, gpuScene_, options.paths, &profiler_);
 }
 
+void RenderSession::applyChanges() {
+    bool isChanged = false;
+    for (const SceneChange* change : changes_.at(renderedFrames_)) {
+        change->applyTo(scene_);
+        isChanged = isChanged || change->changesScene();
+        if (change->camera) camera_ = *change->camera;
+        if (change->restart) forgetFilm();
+    }
+    if (isChanged) updateScene(*device_, scene_, gpuScene_);
+}
+
 double RenderSession::renderFrame(uint32_t index) {
+    applyChanges();
+    ++renderedFrames_;
     const auto start = std::chrono::steady_clock::now();
     if (nrc_)
         nrc_->renderFrame(camera_, index);
@@ -148,11 +162,15 @@ double RenderSession::renderFrame(uint32_t index) {
     return wall;
 }
 
-void RenderSession::endWarmup() {
+void RenderSession::forgetFilm() {
     if (nrc_)
         nrc_->forgetFilm();
     else
         tracer_->forgetFilm();
+}
+
+void RenderSession::endWarmup() {
+    forgetFilm();
     profiler_.reset();
 }
 

@@ -5,6 +5,7 @@
 #include "engine/path/wavefront_path_tracer.h"
 #include "engine/scene/load_scene.h"
 #include "nrc/renderer/nrc_renderer.h"
+#include "scripted_changes.h"
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
@@ -22,6 +23,7 @@ struct RenderRequest {
     std::string network;             // JSON of nrc/config.h, instead of the preset's model
     std::string camera;
     std::string environment;
+    std::string changes; // JSON of scripted_changes.h
     bool surfaces = false;
     DeviceOptions device;
     std::string records = "auto"; // form of the kernels
@@ -35,7 +37,8 @@ class RenderSession {
 public:
     explicit RenderSession(const RenderRequest& request);
 
-    // Renders a frame and closes it in the profiler; returns its wall-clock milliseconds.
+    // Makes the changes that are due, renders a frame and closes it in the profiler; returns its wall-clock
+    // milliseconds. `index` numbers it for the random numbers; changes count the calls.
     double renderFrame(uint32_t index);
     // What was rendered so far only trained: the film and the profiler begin anew.
     void endWarmup();
@@ -50,12 +53,16 @@ public:
     glm::uvec2 size() const { return size_; }
 
 private:
+    void applyChanges();
+    void forgetFilm();
     void createRenderer(const SceneRecords& records, const Bvh& bvh);
 
     RenderRequest request_;
     glm::uvec2 size_;
     Scene scene_;
     Camera camera_;
+    ScriptedChanges changes_;
+    uint32_t renderedFrames_ = 0;
     std::unique_ptr<Device> device_;
     GpuScene gpuScene_;
     Profiler profiler_;

@@ -20,7 +20,7 @@ Loss::Loss(Device& device, const LossConfig& config, uint32_t outputs, float los
 
 void Loss::evaluate(FrameGraph& graph, uint32_t capacity, BufferRange state, BufferRange results,
                     BufferRange targets, BufferRange usable, BufferRange resultGradient,
-                    BufferRange rowLoss) const {
+                    BufferRange rowSums) const {
     const gpu::LossParams params{static_cast<float>(config_.epsilon),
                                  static_cast<float>(config_.exponentStart),
                                  static_cast<float>(config_.exponentEnd),
@@ -34,16 +34,16 @@ void Loss::evaluate(FrameGraph& graph, uint32_t capacity, BufferRange state, Buf
         .read(targets)
         .read(usable)
         .write(resultGradient)
-        .write(rowLoss)
+        .write(rowSums)
         .push(params)
         .dispatch(capacity);
 }
 
-void Loss::endBatch(FrameGraph& graph, BufferRange state, BufferRange rowLoss) const {
+void Loss::endBatch(FrameGraph& graph, BufferRange state, BufferRange rowSums, uint32_t batch) const {
     graph.pass(endBatch_)
         .readWrite(state)
-        .read(rowLoss)
-        .push(gpu::EndBatchParams{outputs_, lossScale_})
+        .read(rowSums)
+        .push(gpu::EndBatchParams{outputs_, lossScale_, batch})
         .dispatchGroups(1);
 }
 

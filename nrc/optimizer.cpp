@@ -53,12 +53,12 @@ void Optimizer::measureNorm(FrameGraph& graph, std::span<const ParameterGroup* c
     }
 }
 
-void Optimizer::step(FrameGraph& graph, BufferRange state,
-                     std::span<const ParameterGroup* const> groups) const {
+void Optimizer::step(FrameGraph& graph, BufferRange state, std::span<const ParameterGroup* const> groups,
+                     std::optional<double> decay) const {
     const bool clips = config_.clipNorm > 0;
     if (clips) measureNorm(graph, groups);
     const auto beta1 = static_cast<float>(config_.beta1), beta2 = static_cast<float>(config_.beta2);
-    const auto emaDecay = static_cast<float>(config_.emaDecay);
+    const auto emaDecay = static_cast<float>(decay.value_or(config_.emaDecay));
     const gpu::BeginUpdateParams begin{clips ? static_cast<uint32_t>(groups.size()) * gpu::kNormPartials : 0u,
                                        static_cast<float>(config_.clipNorm),
                                        beta1,

@@ -6,6 +6,7 @@
 #include "nrc/config.h"
 #include "shared/training.h"
 #include <array>
+#include <optional>
 #include <span>
 
 namespace irradia {
@@ -34,8 +35,11 @@ public:
 
     static gpu::TrainingState initialState();
 
-    // One step from the groups' gradients; whether it happens is in `state` (gpu::TrainingState).
-    void step(FrameGraph& graph, BufferRange state, std::span<const ParameterGroup* const> groups) const;
+    // One step from the groups' gradients; whether it happens is in `state` (gpu::TrainingState). The average
+    // W_1 .. W_t of decays a_1 .. a_t weighs W_i with (1 - a_i) a_(i+1) .. a_t, over the sum of these
+    // weights.
+    void step(FrameGraph& graph, BufferRange state, std::span<const ParameterGroup* const> groups,
+              std::optional<double> emaDecay = {}) const; // instead of the configuration's, in [0, 1)
 
 private:
     void measureNorm(FrameGraph& graph, std::span<const ParameterGroup* const> groups) const;

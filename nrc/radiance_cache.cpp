@@ -171,7 +171,7 @@ void RadianceCache::State::writeTargets(FrameGraph& graph, uint32_t paths) {
         .dispatch(uint64_t(paths) * gpu::kMaxTrainingVertices);
 }
 
-void RadianceCache::learn(FrameGraph& graph, uint32_t paths) {
+void RadianceCache::learn(FrameGraph& graph, uint32_t paths, const TrainingEffort& effort) {
     State& s = *state_;
     if (paths > s.options.trainingPaths)
         fail(ExitCode::Internal, "radiance cache: {} training paths, at most {} were planned", paths,
@@ -180,7 +180,7 @@ void RadianceCache::learn(FrameGraph& graph, uint32_t paths) {
     s.writeTargets(graph, paths);
     s.trainer.train(graph,
                     {RowCount{s.counters, gpu::kRecordCounter, s.capacity}, s.recordInputs, s.recordTargets},
-                    s.options.steps);
+                    s.options.steps, effort);
 }
 
 CacheCounts RadianceCache::counts() const {

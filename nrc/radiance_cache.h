@@ -57,7 +57,7 @@ public:
     // Adds weight * prediction to radiance[path] (vec4) of every query since beginQueries().
     void answer(FrameGraph& graph, BufferRange radiance, Weights weights = Weights::Ema);
     // Learns from `paths` training paths, those from number 0 on.
-    void learn(FrameGraph& graph, uint32_t paths);
+    void learn(FrameGraph& graph, uint32_t paths, const TrainingEffort& effort = {});
 
     CacheCounts counts() const;
 

@@ -44,7 +44,7 @@ struct BatchBuffers {
         , activations(device, "activations", network.activationBytes(rows))
         , results(device, "results", uint64_t(rows) * network.outputQuads() * 16)
         , resultGradient(device, "result gradient", uint64_t(rows) * network.outputQuads() * 16)
-        , rowLoss(device, "row losses", uint64_t(rows) * 4)
+        , rowSums(device, "row losses", uint64_t(rows) * 16)
         , layerGradients(device, "layer gradients", network.layerGradientBytes(rows))
         , encodedGradient(device, "gradient by encoded inputs",
                           encoding.featureCount() > 0 ? uint64_t(rows) * encoding.width() / 4 * quadBytes
@@ -52,7 +52,7 @@ struct BatchBuffers {
         , partials(device, "partial weight gradients", network.partialBytes())
         , featureSums(device, "feature gradient sums", std::max<uint64_t>(encoding.featureCount(), 4) * 8) {}
 
-    Buffer inputs, targets, usable, encoded, activations, results, resultGradient, rowLoss, layerGradients,
+    Buffer inputs, targets, usable, encoded, activations, results, resultGradient, rowSums, layerGradients,
         encodedGradient, partials, featureSums;
 };
 
@@ -89,7 +89,7 @@ struct Trainer::State {
 
     void initialise();
     void gather(FrameGraph& graph, const Records& records, uint32_t index, uint32_t count);
-    void learn(FrameGraph& graph);
+    void learn(FrameGraph& graph, uint32_t number, std::optional<double> emaDecay);
     void packForTraining(FrameGraph& graph);
     void packForInference(FrameGraph& graph, Weights which);
 
@@ -152,13 +152,14 @@ void Trainer::State::gather(FrameGraph& graph, const Records& records, uint32_t 
         .dispatch(batchRows);
 }
 
-void Trainer::State::learn(FrameGraph& graph) {
+// `number`: the batch's in the first pass, or gpu::kLaterPass.
+void Trainer::State::learn(FrameGraph& graph, uint32_t number, std::optional<double> emaDecay) {
     const RowCount rows{state, gpu::kBatchRowsWord, batchRows};
     encoding.encode(graph, rows, batch.inputs, features.values, batch.encoded);
     network.forward(graph, rows, batch.encoded, packed, batch.activations, batch.results);
     loss.evaluate(graph, batchRows, state, batch.results, batch.targets, batch.usable, batch.resultGradient,
-                  batch.rowLoss);
-    loss.endBatch(graph, state, batch.rowLoss);
+                  batch.rowSums);
+    loss.endBatch(graph, state, batch.rowSums, number);
     const BufferRange encodedGradient(batch.encodedGradient);
     network.backward(graph, rows, packed, batch.activations, batch.results, batch.resultGradient,
                      batch.layerGradients, features.count > 0 ? &encodedGradient : nullptr);
@@ -168,7 +169,7 @@ void Trainer::State::learn(FrameGraph& graph) {
         encoding.accumulateGradient(graph, rows, batch.inputs, batch.encodedGradient, batch.featureSums);
         encoding.takeGradient(graph, batch.featureSums, features.gradients, state, gpu::kGradientScaleWord);
     }
-    optimizer.step(graph, state, groups());
+    optimizer.step(graph, state, groups(), emaDecay);
     packedIsCurrent = false;
     inferPackedHolds.reset();
 }
@@ -194,14 +195,16 @@ uint64_t Trainer::parameterCount() const {
     return state_->weights.count + state_->features.count;
 }
 
-void Trainer::train(FrameGraph& graph, const Records& records, uint32_t steps) {
-    if (steps == 0 || uint64_t(records.rows.capacity) > uint64_t(steps) * state_->batchRows)
+void Trainer::train(FrameGraph& graph, const Records& records, uint32_t batches,
+                    const TrainingEffort& effort) {
+    if (batches == 0 || uint64_t(records.rows.capacity) > uint64_t(batches) * state_->batchRows)
         fail(ExitCode::Internal, "trainer: {} records in {} steps of at most {}", records.rows.capacity,
-             steps, state_->batchRows);
+             batches, state_->batchRows);
+    const uint32_t steps = effort.steps == 0 ? batches : effort.steps;
     for (uint32_t step = 0; step < steps; ++step) {
         state_->packForTraining(graph);
-        state_->gather(graph, records, step, steps);
-        state_->learn(graph);
+        state_->gather(graph, records, step % batches, batches);
+        state_->learn(graph, step < batches ? step : gpu::kLaterPass, effort.emaDecay);
         graph.cut();
     }
 }
@@ -228,7 +231,8 @@ std::string Trainer::shapeName() const {
 
 TrainingCounts Trainer::counts() const {
     const auto state = download<gpu::TrainingState>(state_->device, state_->state, 1).front();
-    return {state.steps, state.droppedRecords, state.clippedSteps, state.damagedParameters, state.loss};
+    return {state.steps, state.droppedRecords, state.clippedSteps, state.damagedParameters,
+            state.loss,  state.meanPrediction, state.meanTarget};
 }
 
 std::vector<float> Trainer::parameters(Weights which) const {

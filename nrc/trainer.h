@@ -10,6 +10,7 @@
 #include "nrc/network.h"
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace irradia {
@@ -39,6 +40,16 @@ struct TrainingCounts {
     uint32_t clippedSteps = 0;      // whose gradient was longer than clip_norm
     uint32_t damagedParameters = 0; // weights, moments or averages found not finite, and set to zero
     float loss = 0;                 // mean of the last step, 0 before the first
+    // Of the last call of train(), in its first pass: mean luminance over the usable records of what was
+    // predicted before each step, and of the targets.
+    float meanPrediction = 0, meanTarget = 0;
+};
+
+// What one call of train() does with its records.
+struct TrainingEffort {
+    // 0 = a pass; more than its batches: further passes, each in an order of its own, the last maybe cut short
+    uint32_t steps = 0;
+    std::optional<double> emaDecay; // instead of the optimizer's, in [0, 1)
 };
 
 class Trainer {
@@ -52,9 +63,11 @@ public:
     const Encoding& encoding() const;
     uint64_t parameterCount() const; // weights, then features
 
-    // One pass over the records in `steps` optimisation steps: record i belongs to exactly one step, chosen
-    // by a permutation that is new at each call. rows.capacity / steps must not exceed batchRows.
-    void train(FrameGraph& graph, const Records& records, uint32_t steps = 1);
+    // One pass over the records in `batches` optimisation steps, unless the effort says otherwise: record i
+    // belongs to exactly one of them, chosen by a permutation that is new for each pass. rows.capacity /
+    // batches must not exceed batchRows.
+    void train(FrameGraph& graph, const Records& records, uint32_t batches = 1,
+               const TrainingEffort& effort = {});
 
     // results: rows of ceil(outputs / 4) single-precision quads. rows.capacity is at most inferRows.
     void infer(FrameGraph& graph, const RowCount& rows, BufferRange inputs, BufferRange results,

@@ -26,9 +26,9 @@ struct LossBatch {
 };
 
 struct LossOutputs {
-    std::vector<double> gradient; // rows of `outputs`, of the mean
-    std::vector<double> padding;  // of the gradient's last quads
-    std::vector<double> rowLoss;
+    std::vector<double> gradient;               // rows of `outputs`, of the mean
+    std::vector<double> padding;                // of the gradient's last quads
+    std::vector<double> rowLoss, rowBrightness; // the latter of prediction and target in turn
     gpu::TrainingState state{};
 };
 
@@ -62,11 +62,11 @@ LossOutputs evaluate(const LossConfig& config, const LossBatch& batch, uint32_t 
     const Buffer targets = rowBuffer(rows, kCapacity, batch.targets, NAN);
     const Buffer usable = makeBuffer(device, "usable", batch.usable);
     const Buffer gradient = rowBuffer(rows, kCapacity, {}, 3.0);
-    const Buffer rowLoss(device, "row losses", kCapacity * sizeof(float));
+    const Buffer rowSums(device, "row sums", kCapacity * sizeof(glm::vec4));
     const Loss loss(device, config, batch.outputs, lossScale, gradientLimit);
     FrameGraph graph(device);
-    loss.evaluate(graph, kCapacity, states, results, targets, usable, gradient, rowLoss);
-    loss.endBatch(graph, states, rowLoss);
+    loss.evaluate(graph, kCapacity, states, results, targets, usable, gradient, rowSums);
+    loss.endBatch(graph, states, rowSums);
     graph.execute();
 
     LossOutputs outputs;
@@ -76,7 +76,10 @@ LossOutputs evaluate(const LossConfig& config, const LossBatch& batch, uint32_t 
     for (size_t i = 0; i < all.size(); ++i)
         (i % whole.width < batch.outputs ? outputs.gradient : outputs.padding)
             .push_back(all[i] * outputs.state.gradientScale);
-    for (const float l : download<float>(device, rowLoss, batch.count())) outputs.rowLoss.push_back(l);
+    for (const glm::vec4& sums : download<glm::vec4>(device, rowSums, batch.count())) {
+        outputs.rowLoss.push_back(sums.x);
+        outputs.rowBrightness.insert(outputs.rowBrightness.end(), {sums.y, sums.z});
+    }
     return outputs;
 }
 

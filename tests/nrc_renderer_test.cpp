@@ -52,6 +52,7 @@ FilmImage renderPlain(const NrcOptions& options, uint32_t frames) {
 
 TEST_CASE("paths that never end in the cache give the path tracer's picture, bit for bit") {
     NrcOptions never = options(48);
+    never.config.adaptation.on = false;
     never.config.spread = never.config.trainingSpread = std::numeric_limits<float>::infinity();
     NrcRenderer renderer(device(), cornell().gpu, cornell().bounds, never);
     for (uint32_t i = 0; i < 4; ++i) renderer.renderFrame(cornell().camera, i);

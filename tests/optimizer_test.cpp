@@ -41,7 +41,7 @@ public:
 
     // Of a batch with this many records, of which so many are usable.
     void step(const std::vector<float>& gradient, uint32_t records = 1, uint32_t usable = 1,
-              uint32_t times = 1) {
+              uint32_t times = 1, std::optional<double> emaDecay = {}) {
         set(&ParameterGroup::gradients, gradient);
         gpu::TrainingState now = state();
         now.batchRows = records;
@@ -49,7 +49,7 @@ public:
         upload<gpu::TrainingState>(validatedDevice(), state_, std::span(&now, 1));
         const ParameterGroup* groups[] = {&weights_, &features_};
         FrameGraph graph(validatedDevice());
-        for (uint32_t i = 0; i < times; ++i) optimizer_.step(graph, state_, groups);
+        for (uint32_t i = 0; i < times; ++i) optimizer_.step(graph, state_, groups, emaDecay);
         graph.execute();
     }
     gpu::TrainingState state() const {
@@ -250,6 +250,35 @@ TEST_CASE("averages are their closed form") {
             expect([&](double old, double now) { return old + share * (now - old); });
         }
         if (decay == 0.0) CHECK(harness.get(&ParameterGroup::averages) == after);
+    }
+}
+
+// Average of W_1 .. W_t: weights (1 - a_i) a_(i+1) .. a_t over their sum.
+TEST_CASE("an average whose decay changes is its closed form, without bias") {
+    reference::Random random(12);
+    OptimizerConfig config = plainConfig();
+    config.emaDecay = 0.99;
+    OptimizerHarness harness(config);
+    harness.set(&ParameterGroup::values, randomFloats(random, 1.0f));
+    std::vector<std::vector<float>> history;
+    std::vector<double> decays;
+    for (const double decay : {0.99, 0.99, 0.5, 0.9, 0.0, 0.99, 0.999, 0.7, 0.99}) {
+        harness.step(randomGradient(random), 1, 1, 1, decay);
+        history.push_back(harness.get(&ParameterGroup::values));
+        decays.push_back(static_cast<float>(decay));
+        std::vector<double> expected(kAll, 0.0);
+        double sum = 0.0, later = 1.0; // a_(i+1) .. a_t
+        for (size_t i = history.size(); i > 0; --i) {
+            const double weight = (1.0 - decays[i - 1]) * later;
+            for (uint32_t p = 0; p < kAll; ++p) expected[p] += weight * history[i - 1][p];
+            sum += weight;
+            later *= decays[i - 1];
+        }
+        for (double& value : expected) value /= sum;
+        const double error = worstError(doubles(harness.get(&ParameterGroup::averages)), expected);
+        INFO(history.size() << " steps, error " << error);
+        CHECK(error <= kTolerance);
+        CHECK(std::abs(harness.state().etaEma - sum) <= 1e-6);
     }
 }
 

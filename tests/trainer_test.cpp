@@ -188,6 +188,47 @@ TEST_CASE("a pass without usable records changes nothing, bit for bit") {
     }
 }
 
+TEST_CASE("more effort is further passes, and the average follows faster") {
+    const TrainingRecords records = randomRecords(200, 11);
+    TrainerHarness once(annealedModel()), more(annealedModel()), twice(annealedModel());
+    once.train(records, 2);
+    twice.train(records, 2);
+    twice.train(records, 2);
+    more.train(records, 2, {.steps = 4});
+    const auto weights = [](const TrainerHarness& h) { return h.trainer().parameters(Weights::Raw); };
+    CHECK(more.trainer().counts().steps == 4);
+    CHECK(weights(more) == weights(twice)); // each pass in an order of its own
+    CHECK(weights(more) != weights(once));
+    // The means are of the first pass alone.
+    CHECK(more.trainer().counts().meanPrediction == once.trainer().counts().meanPrediction);
+    CHECK(more.trainer().counts().meanPrediction != twice.trainer().counts().meanPrediction);
+
+    TrainerHarness short3(annealedModel());
+    short3.train(records, 2, {.steps = 3, .emaDecay = 0.0});
+    CHECK(short3.trainer().counts().steps == 3);
+    CHECK(weights(short3) == short3.trainer().parameters(Weights::Ema));
+}
+
+TEST_CASE("the means of predictions and targets are those of the usable records") {
+    TrainingRecords records = randomRecords(201, 12);
+    TrainerHarness harness;
+    const std::vector<double> predictions = harness.predict(records, Weights::Raw);
+    records.targets[0] = NAN;
+    const auto luminance = [](const std::vector<double>& v, size_t row) {
+        return 0.2126 * v[3 * row] + 0.7152 * v[3 * row + 1] + 0.0722 * v[3 * row + 2];
+    };
+    double prediction = 0.0, target = 0.0;
+    for (size_t row = 1; row < 201; ++row) {
+        prediction += luminance(predictions, row) / 200.0;
+        target += luminance(records.targets, row) / 200.0;
+    }
+    harness.train(records);
+    CHECK(std::abs(harness.trainer().counts().meanPrediction - prediction) <= 1e-5 * std::abs(prediction));
+    CHECK(std::abs(harness.trainer().counts().meanTarget - target) <= 1e-5 * target);
+    harness.train(records, 2); // of two batches: of one record more or less
+    CHECK(std::abs(harness.trainer().counts().meanTarget - target) <= 1e-2 * target);
+}
+
 TEST_CASE("what pads the last quad of a record is not used") {
     const TrainingRecords records = randomRecords(100, 7);
     for (const ModelConfig& config : {smallModel(), annealedModel()}) {

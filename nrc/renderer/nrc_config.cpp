@@ -44,6 +44,22 @@ void readTraining(const Json& json, const std::string& file, NrcConfig& config) 
     fields.finish();
 }
 
+// "on" and "off", or the settings of what is on.
+void readAdaptation(JsonFields& outer, const std::string& file, AdaptationConfig& config) {
+    const Json* json = outer.member("adaptation");
+    if (json && json->is_string()) config.on = outer.choice("adaptation", config.on, kSwitchNames);
+    if (!json || json->is_string()) return;
+    JsonFields fields(*json, file, "adaptation");
+    config.threshold = static_cast<float>(fields.number("threshold", config.threshold, {0, 100}));
+    config.full = static_cast<float>(fields.number("full", config.full, {config.threshold, 100}));
+    config.mostSteps = fields.integer("most_steps", config.mostSteps, 1, 64);
+    config.shortestEma =
+        static_cast<float>(fields.number("shortest_ema", config.shortestEma, {0, 1, NumberRange::HighOpen}));
+    config.calming =
+        static_cast<float>(fields.number("calming", config.calming, {0, 1, NumberRange::HighOpen}));
+    fields.finish();
+}
+
 } // namespace
 
 NrcConfig parseNrcConfig(const std::string& text, const std::string& name) {
@@ -52,6 +68,7 @@ NrcConfig parseNrcConfig(const std::string& text, const std::string& name) {
     JsonFields fields(json, name, "");
     if (const Json* paths = fields.member("paths")) readPaths(*paths, name, config);
     if (const Json* training = fields.member("training")) readTraining(*training, name, config);
+    readAdaptation(fields, name, config.adaptation);
     config.factorise = fields.choice("factorise", config.factorise, kSwitchNames);
     config.shown = fields.choice("shown", config.shown, kWeightsNames);
     const Json* model = fields.member("model");

@@ -2,12 +2,15 @@
 //
 //     {"paths": {"spread": 0.01, "training_spread": 0.01, "unbiased_share": 0.0625, "suffix_bounces": 8},
 //      "training": {"records": 65536, "min_records": 4096, "steps": 4, "self_training": "Ema"},
-//      "factorise": true, "shown": "Ema", "residual_share": 0, "model": {...}}
+//      "adaptation": "off", or {"threshold": 0.3, "full": 0.7, "most_steps": 16, "shortest_ema": 0.9,
+//      "calming": 0.85},
+//      "factorise": "on", "shown": "Ema", "model": {...}}
 //
 // where every key may be missing; "model" is what nrc/config.h describes, of gpu::kCacheInputs inputs.
 #pragma once
 
 #include "nrc/config.h"
+#include "nrc/renderer/adaptation.h"
 #include "nrc/trainer.h"
 #include "shared/cache.h"
 #include <filesystem>
@@ -30,7 +33,8 @@ struct NrcConfig {
 
     uint32_t recordsAt1080p = 65536; // wanted per frame of 1920 x 1080 pixels; scaled with the picture
     uint32_t minRecords = 4096;
-    uint32_t steps = 4;                  // of optimisation a frame
+    uint32_t steps = 4; // of optimisation a frame, when nothing is urgent
+    AdaptationConfig adaptation;
     bool factorise = true;               // predictions are multiplied by the reflectance
     Weights selfTraining = Weights::Ema; // whose predictions end training paths
     Weights shown = Weights::Ema;        // whose predictions are rendered

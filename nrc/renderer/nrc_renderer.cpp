@@ -43,6 +43,7 @@ NrcRenderer::NrcRenderer(Device& device, const GpuScene& scene, const Bounds& bo
     , bounds_(bounds)
     , tracer_(device, scene, cachedPaths(options.paths), profiler)
     , cache_(device, cacheOptions(options, tracer_.largestWave()))
+    , adaptation_(options.config.adaptation, options.config.steps, options.config.model.optimizer.emaDecay)
     , tiles_(wantedTiles()) {}
 
 std::vector<Device::PlannedBuffer> NrcRenderer::plannedBuffers(const Device& device,
@@ -71,14 +72,16 @@ void NrcRenderer::renderFrame(const Camera& camera, uint32_t index) {
     }
     if (learns_) {
         graph.section("train");
-        cache_.learn(graph, tiles_.count());
+        cache_.learn(graph, tiles_.count(), adaptation_.effort());
         graph.section("");
     }
     graph.execute();
     tracer_.endFrame();
     counts_ = cache_.counts();
-    if (learns_ && counts_.records > 0)
+    if (learns_ && counts_.records > 0) {
+        adaptation_.observe(counts_.training.meanPrediction, counts_.training.meanTarget);
         recordsPerPath_ = double(counts_.records + counts_.skippedRecords) / tiles_.count();
+    }
     tiles_ = wantedTiles();
 }
 

@@ -31,6 +31,7 @@ public:
     const WavefrontPathTracer& tracer() const { return tracer_; }
     RadianceCache& cache() { return cache_; }
     const CacheCounts& counts() const { return counts_; } // of the last frame
+    const Adaptation& adaptation() const { return adaptation_; }
 
 private:
     struct Tiles {
@@ -46,6 +47,7 @@ private:
     WavefrontPathTracer tracer_;
     RadianceCache cache_;
     CacheCounts counts_;
+    Adaptation adaptation_;
     double recordsPerPath_ = 2.0; // of the last frame
     Tiles tiles_;                 // of this frame: one training path each
     bool learns_ = true;

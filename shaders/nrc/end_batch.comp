@@ -1,26 +1,39 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The batch's mean loss, which a batch without a usable record leaves as it is, and the factor that makes gradients those
-// of the mean. One workgroup, sums in a fixed order.
+// The batch's mean loss and brightness, which a batch without a usable record leaves as they are, and the factor that makes
+// gradients those of the mean. One workgroup, sums in a fixed order.
 #include "lib/kernel.glsl"
 #include "nrc/state.glsl"
 
 STATE(0);
-WORDS_READ(1, rowLoss);
+RECORDS_READ(1, rowSums);
 layout(push_constant) uniform Push { EndBatchParams params; };
 
-shared float sums[gl_WorkGroupSize.x];
+shared vec3 sums[gl_WorkGroupSize.x];
+
+// Batches are of one size, or nearly: the mean over a pass is that of their means.
+void addToPass(vec2 brightness) {
+    if (params.batch == kLaterPass) return;
+    vec2 before = params.batch == 0u ? brightness : vec2(state.meanPrediction, state.meanTarget);
+    vec2 mean = before + (brightness - before) / float(params.batch + 1u);
+    state.meanPrediction = mean.x;
+    state.meanTarget = mean.y;
+}
 
 void main() {
     uint lane = gl_LocalInvocationID.x;
-    float sum = 0.0;
-    for (uint row = lane; row < state.batchRows; row += gl_WorkGroupSize.x) sum += uintBitsToFloat(loadWord(rowLoss, row));
+    vec3 sum = vec3(0.0);
+    for (uint row = lane; row < state.batchRows; row += gl_WorkGroupSize.x)
+        sum += uintBitsToFloat(loadRecord(rowSums, row).xyz);
     sums[lane] = sum;
     barrier();
     if (lane != 0u) return;
-    float total = 0.0;
+    vec3 total = vec3(0.0);
     for (uint i = 0u; i < gl_WorkGroupSize.x; ++i) total += sums[i];
     float count = float(state.validRecords) * float(params.outputs);
-    if (state.validRecords > 0u) state.loss = total / count;
+    if (state.validRecords > 0u) {
+        state.loss = total.x / count;
+        addToPass(total.yz / float(state.validRecords));
+    }
     state.gradientScale = 1.0 / (max(count, 1.0) * params.lossScale);
 }

@@ -1,7 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Loss of every row, and its gradient by the results, before the mean over the batch is taken: (p - t)^2 / d^e with the
-// denominator d = p^2 + epsilon detached (Lehtinen 2018), or with p's luminance for all channels (Müller 2021, 4.3).
+// Loss and brightness of every row, and the gradient of the loss by the results, before the mean over the batch is taken:
+// (p - t)^2 / d^e with the denominator d = p^2 + epsilon detached (Lehtinen 2018), or with p's luminance for all channels
+// (Müller 2021, 4.3).
 #include "lib/kernel.glsl"
 #include "lib/math.glsl"
 #include "nrc/state.glsl"
@@ -16,7 +17,7 @@ RECORDS_READ(1, results);
 RECORDS_READ(2, targets);
 WORDS_READ(3, usable);
 RECORDS_WRITE(4, resultGradient);
-WORDS_WRITE(5, rowLoss);
+RECORDS_WRITE(5, rowSums); // loss, luminance of the prediction and of the target; zero where the row is not used
 layout(push_constant) uniform Push { LossParams params; };
 
 // From exponentStart to exponentEnd over the steps [annealStart, annealEnd].
@@ -38,26 +39,32 @@ vec4 denominator(vec4 prediction) {
 
 vec4 handedOn(vec4 gradient) { return clamp(params.lossScale * gradient, -params.gradientLimit, params.gradientLimit); }
 
+// A quad's part of the row's brightness.
+float brightness(vec4 values) { return kOutputs == 3u ? luminance(values.xyz) : dot(values, vec4(1.0 / float(kOutputs))); }
+
 void main() {
     uint row = gl_GlobalInvocationID.x;
     if (row >= state.batchRows) return;
     vec4 gradient[kQuads];
-    float loss = 0.0;
+    float loss = 0.0, predicted = 0.0, wanted = 0.0;
     bool finite = true;
     [[unroll]] for (uint q = 0u; q < kQuads; ++q) {
         bvec4 exists = existing(q, kOutputs);
         vec4 prediction = mix(vec4(0.0), uintBitsToFloat(loadRecord(results, quadIndex(row, q, kQuads))), exists);
-        vec4 difference = mix(vec4(0.0), prediction - uintBitsToFloat(loadRecord(targets, quadIndex(row, q, kQuads))), exists);
+        vec4 target = mix(vec4(0.0), uintBitsToFloat(loadRecord(targets, quadIndex(row, q, kQuads))), exists);
+        vec4 difference = prediction - target;
         vec4 d = denominator(prediction);
         gradient[q] = 2.0 * difference / d;
         loss += dot(difference, difference / d);
+        predicted += brightness(prediction);
+        wanted += brightness(target);
         finite = finite && isWithin(prediction, kPredictionLimit) && isWithin(gradient[q], kGradientLimit);
     }
     bool usableRow = loadWord(usable, row) != 0u;
     bool use = usableRow && finite && loss <= kGradientLimit;
     [[unroll]] for (uint q = 0u; q < kQuads; ++q)
         storeRecord(resultGradient, quadIndex(row, q, kQuads), floatBitsToUint(use ? handedOn(gradient[q]) : vec4(0.0)));
-    storeWord(rowLoss, row, floatBitsToUint(use ? loss : 0.0));
+    storeRecord(rowSums, row, floatBitsToUint(use ? vec4(loss, predicted, wanted, 0.0) : vec4(0.0)));
     if (use) atomicAdd(state.validRecords, 1u);
     if (usableRow && !use) atomicAdd(state.droppedRecords, 1u);
 }

@@ -26,8 +26,10 @@ struct TrainingState {
     float gradientScale;  // 1 / (valid records * outputs * loss scale)
     float clipScale;      // at most 1
     float loss;           // mean over valid records and outputs
-    uint unused0;
-    uint unused1;
+    // Of the first pass' batches so far, the mean over usable records of their luminance (of other than 3 outputs: their
+    // mean): what was predicted before each step, and what was to be predicted.
+    float meanPrediction;
+    float meanTarget;
 };
 // Words of it that generic kernels are pointed to.
 SHARED_CONST uint kBatchRowsWord = 11u;
@@ -70,7 +72,9 @@ struct LossParams {
 struct EndBatchParams {
     uint outputs;
     float lossScale;
+    uint batch; // of the first pass over the records; kLaterPass = of another
 };
+SHARED_CONST uint kLaterPass = 0xffffffffu;
 
 SHARED_CONST uint kNormPartials = 64u; // workgroups of gradient_norm for each group of parameters
 struct NormParams {

@@ -131,13 +131,13 @@ TrainerHarness::TrainerHarness(const ModelConfig& config, uint64_t seed, double 
     : trainer_(validatedDevice(), config, kTrainerInputs, kTrainerOutputs, optionsWith(seed))
     , padding_(padding) {}
 
-void TrainerHarness::train(const TrainingRecords& records, uint32_t steps) {
+void TrainerHarness::train(const TrainingRecords& records, uint32_t steps, const TrainingEffort& effort) {
     const uint32_t capacity = capacityOf(records);
     const Buffer counters = makeBuffer<uint32_t>(validatedDevice(), "counters", {capacity, records.count()});
     const Buffer inputs = rowBuffer(kInputRows, capacity, records.inputs, padding_);
     const Buffer targets = rowBuffer(kTargetRows, capacity, records.targets, padding_);
     FrameGraph graph(validatedDevice());
-    trainer_.train(graph, {{counters, 1, capacity}, inputs, targets}, steps);
+    trainer_.train(graph, {{counters, 1, capacity}, inputs, targets}, steps, effort);
     graph.execute();
 }
 

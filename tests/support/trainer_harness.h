@@ -46,7 +46,7 @@ public:
     Trainer& trainer() { return trainer_; }
     const Trainer& trainer() const { return trainer_; }
 
-    void train(const TrainingRecords& records, uint32_t steps = 1);
+    void train(const TrainingRecords& records, uint32_t steps = 1, const TrainingEffort& effort = {});
     std::vector<double> predict(const TrainingRecords& records, Weights weights);
 
     Learned learned() const;

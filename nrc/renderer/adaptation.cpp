@@ -1,0 +1,40 @@
+#include "nrc/renderer/adaptation.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace irradia {
+namespace {
+
+constexpr float kDark = 0.01f; // in the cache's scale
+
+} // namespace
+
+Adaptation::Adaptation(const AdaptationConfig& config, uint32_t steps, double emaDecay)
+    : config_(config)
+    , steps_(steps)
+    , emaDecay_(emaDecay) {}
+
+void Adaptation::observe(float meanPrediction, float meanTarget) {
+    const float ratio = (std::max(meanPrediction, 0.0f) + kDark) / (std::max(meanTarget, 0.0f) + kDark);
+    const float disagreement = std::abs(std::log(ratio));
+    const float range = std::max(config_.full - config_.threshold, 1e-6f);
+    // Not a number where a prediction was none: the trainer dropped those records, nothing is urgent.
+    const float now =
+        disagreement > config_.threshold ? std::min((disagreement - config_.threshold) / range, 1.0f) : 0.0f;
+    urgency_ = std::max(now, config_.calming * urgency_);
+    if (urgency_ < 0.01f) urgency_ = 0.0f; // exactly as configured, at last
+}
+
+TrainingEffort Adaptation::effort() const {
+    if (!config_.on || urgency_ == 0.0f) return {};
+    TrainingEffort effort;
+    const double most = std::max(config_.mostSteps, steps_);
+    effort.steps = static_cast<uint32_t>(std::lround(steps_ + urgency_ * (most - steps_)));
+    // What the average remembers, 1 / (1 - decay) steps, shrinks geometrically.
+    const double shortest = std::min<double>(config_.shortestEma, emaDecay_);
+    effort.emaDecay = 1.0 - (1.0 - emaDecay_) * std::pow((1.0 - shortest) / (1.0 - emaDecay_), urgency_);
+    return effort;
+}
+
+} // namespace irradia

@@ -1,0 +1,37 @@
+// How much is learned per frame: more, and forgotten faster, while what the cache predicts and what paths
+// find disagree (a lamp was switched, the scene was entered), and as configured when they agree.
+#pragma once
+
+#include "nrc/trainer.h"
+
+namespace irradia {
+
+// Disagreement of a frame: |ln((P + 0.01) / (T + 0.01))| of the mean luminance of predictions and targets at
+// the frame's records, both in the cache's scale, where targets are around 1 on average.
+struct AdaptationConfig {
+    bool on = true;
+    float threshold = 0.3f;   // disagreement up to which the noise of a frame's records may reach
+    float full = 0.7f;        // and from which on the urgency is 1
+    uint32_t mostSteps = 16;  // of optimisation a frame, at urgency 1
+    float shortestEma = 0.9f; // decay of the weights' average per step, at urgency 1
+    float calming = 0.85f;    // share of the urgency that is left after a frame of agreement
+};
+
+// Depends on what the frames before have found alone, so that the same frames learn the same.
+class Adaptation {
+public:
+    // `steps` a frame and `emaDecay` when nothing is urgent.
+    Adaptation(const AdaptationConfig& config, uint32_t steps, double emaDecay);
+
+    void observe(float meanPrediction, float meanTarget); // of a frame that has learned
+    TrainingEffort effort() const;                        // of the next
+    float urgency() const { return urgency_; }            // 0 to 1
+
+private:
+    AdaptationConfig config_;
+    uint32_t steps_;
+    double emaDecay_;
+    float urgency_ = 0.0f;
+};
+
+} // namespace irradia

@@ -18,16 +18,17 @@ Loss::Loss(Device& device, const LossConfig& config, uint32_t outputs, float los
     endBatch_ = Kernel(device, kernels::end_batch);
 }
 
-void Loss::evaluate(FrameGraph& graph, uint32_t capacity, BufferRange state, BufferRange results,
-                    BufferRange targets, BufferRange usable, BufferRange resultGradient,
-                    BufferRange rowSums) const {
+void Loss::evaluate(FrameGraph& graph, uint32_t rows, BufferRange state, BufferRange results,
+                    BufferRange targets, BufferRange usable, BufferRange resultGradient, BufferRange rowSums,
+                    uint32_t first) const {
     const gpu::LossParams params{static_cast<float>(config_.epsilon),
                                  static_cast<float>(config_.exponentStart),
                                  static_cast<float>(config_.exponentEnd),
                                  config_.annealStart,
                                  config_.annealEnd,
                                  lossScale_,
-                                 gradientLimit_};
+                                 gradientLimit_,
+                                 first};
     graph.pass(loss_)
         .readWrite(state)
         .read(results)
@@ -36,7 +37,7 @@ void Loss::evaluate(FrameGraph& graph, uint32_t capacity, BufferRange state, Buf
         .write(resultGradient)
         .write(rowSums)
         .push(params)
-        .dispatch(capacity);
+        .dispatch(rows);
 }
 
 void Loss::endBatch(FrameGraph& graph, BufferRange state, BufferRange rowSums, uint32_t batch) const {

@@ -15,13 +15,13 @@ public:
     Loss(Device& device, const LossConfig& config, uint32_t outputs, float lossScale,
          float gradientLimit = gpu::kGradientLimit);
 
-    // Of `capacity` rows at most; how many there are is in `state` (gpu::TrainingState), whose counts it
-    // advances. `usable`: a word a row, 0 where the record is to be left out. resultGradient: rows as
-    // `results`, times lossScale and cut, before the mean; rowSums: a record a row, of its loss and the
+    // Of rows [first, first + rows) of the batch; how many it has is in `state` (gpu::TrainingState), whose
+    // counts it advances. `usable`: a word a row, 0 where the record is to be left out. resultGradient: rows
+    // as `results`, times lossScale and cut, before the mean; rowSums: a record a row, of its loss and the
     // luminance of prediction and target.
-    void evaluate(FrameGraph& graph, uint32_t capacity, BufferRange state, BufferRange results,
-                  BufferRange targets, BufferRange usable, BufferRange resultGradient,
-                  BufferRange rowSums) const;
+    void evaluate(FrameGraph& graph, uint32_t rows, BufferRange state, BufferRange results,
+                  BufferRange targets, BufferRange usable, BufferRange resultGradient, BufferRange rowSums,
+                  uint32_t first = 0) const;
     // The batch's mean loss and the factor of its gradients, into `state`, and the means of the luminance
     // over the first pass, of which it is number `batch` (gpu::kLaterPass: it is not).
     void endBatch(FrameGraph& graph, BufferRange state, BufferRange rowSums, uint32_t batch = 0) const;

@@ -64,6 +64,9 @@ uint64_t Network::multiplyAdds() const {
 uint64_t Network::weightCount() const {
     return state_->shape.weights();
 }
+uint32_t Network::weightQuads() const {
+    return static_cast<uint32_t>(weightCount() / 4);
+}
 uint64_t Network::packedBytes() const {
     return state_->shape.packedQuads() * state_->shape.quadBytes;
 }
@@ -108,7 +111,7 @@ void Network::infer(FrameGraph& graph, const RowCount& rows, BufferRange encoded
         .read(encoded)
         .read(packed)
         .write(results)
-        .push(gpu::RowsParams{rows.index, rows.capacity})
+        .push(gpu::RowsParams{rows.index, rows.capacity, rows.first})
         .dispatchGroups(state_->kernels.inferGroups(rows.capacity));
 }
 
@@ -120,7 +123,7 @@ void Network::forward(FrameGraph& graph, const RowCount& rows, BufferRange encod
         .read(packed)
         .write(results)
         .write(activations)
-        .push(gpu::RowsParams{rows.index, rows.capacity})
+        .push(gpu::RowsParams{rows.index, rows.capacity, rows.first})
         .dispatchGroups(state_->kernels.forwardGroups(rows.capacity));
 }
 
@@ -136,30 +139,38 @@ void Network::backward(FrameGraph& graph, const RowCount& rows, BufferRange pack
         .read(resultGradient)
         .write(layerGradients)
         .write(inputGradient ? *inputGradient : BufferRange(state_->none))
-        .push(gpu::RowsParams{rows.index, rows.capacity})
+        .push(gpu::RowsParams{rows.index, rows.capacity, rows.first})
         .dispatchGroups(state_->kernels.forwardGroups(rows.capacity));
 }
 
-void Network::weightGradient(FrameGraph& graph, const RowCount& rows, BufferRange encoded,
-                             BufferRange activations, BufferRange layerGradients, BufferRange partials,
-                             BufferRange gradients, BufferRange scale, uint32_t scaleWord) const {
+void Network::weightGradient(FrameGraph& graph, const RowCount& rows, uint32_t batchCapacity,
+                             BufferRange encoded, BufferRange activations, BufferRange layerGradients,
+                             BufferRange partials) const {
     const NetworkKernels& kernels = state_->kernels;
-    const uint32_t weightQuads = static_cast<uint32_t>(weightCount() / 4);
-    const uint32_t chunkRows = rows.capacity / gpu::kGradientChunks; // whole tiles, as capacities are padded
+    const uint32_t chunkRows = batchCapacity / gpu::kGradientChunks; // whole tiles, as capacities are padded
+    if (rows.first % chunkRows != 0 || rows.capacity % chunkRows != 0)
+        fail(ExitCode::Internal, "network: rows {} to {} are not whole chunks of {}", rows.first,
+             rows.first + rows.capacity, chunkRows);
+    const uint32_t chunks = rows.capacity / chunkRows;
     graph.pass(kernels.weightGradient, "weight_gradient")
         .read(rows.counters)
         .read(encoded)
         .read(activations)
         .read(layerGradients)
         .write(partials)
-        .push(gpu::WeightGradientParams{rows.index, chunkRows, kernels.weightBlocks, weightQuads})
-        .dispatchGroups(kernels.weightGradientGroups());
-    graph.pass(kernels.sumGradients, "sum_gradients")
+        .push(gpu::WeightGradientParams{rows.index, rows.first, rows.first / chunkRows, chunks, chunkRows,
+                                        kernels.weightBlocks, weightQuads()})
+        .dispatchGroups(kernels.weightGradientGroups(chunks));
+}
+
+void Network::sumGradients(FrameGraph& graph, BufferRange partials, BufferRange gradients, BufferRange scale,
+                           uint32_t scaleWord) const {
+    graph.pass(state_->kernels.sumGradients, "sum_gradients")
         .read(partials)
         .read(scale)
         .write(gradients)
-        .push(gpu::SumGradientsParams{weightQuads, scaleWord})
-        .dispatch(weightQuads);
+        .push(gpu::SumGradientsParams{weightQuads(), scaleWord})
+        .dispatch(weightQuads());
 }
 
 } // namespace irradia

@@ -60,15 +60,18 @@ public:
                   BufferRange results, BufferRange resultGradient, BufferRange layerGradients,
                   const BufferRange* inputGradient) const;
 
-    // gradients (weightCount() floats) = sum over rows of layer gradient x activation, times the float at
-    // word `scaleWord` of `scale`. Rows are summed in fixed chunks, and these in order: the result does not
-    // depend on threads.
+    // Sums of layer gradient x activation over rows, in gpu::kGradientChunks fixed chunks of a batch's
+    // `batchCapacity` rows: `rows` may be a part of the batch that is whole chunks of it. Then, of all parts:
+    // gradients (weightCount() floats) = the chunks' sums in order, times the float at word `scaleWord` of
+    // `scale`. So the result depends neither on threads nor on the parts.
     uint64_t partialBytes() const;
-    void weightGradient(FrameGraph& graph, const RowCount& rows, BufferRange encoded, BufferRange activations,
-                        BufferRange layerGradients, BufferRange partials, BufferRange gradients,
-                        BufferRange scale, uint32_t scaleWord) const;
+    void weightGradient(FrameGraph& graph, const RowCount& rows, uint32_t batchCapacity, BufferRange encoded,
+                        BufferRange activations, BufferRange layerGradients, BufferRange partials) const;
+    void sumGradients(FrameGraph& graph, BufferRange partials, BufferRange gradients, BufferRange scale,
+                      uint32_t scaleWord) const;
 
 private:
+    uint32_t weightQuads() const;
     struct State;
     std::unique_ptr<State> state_;
 };

@@ -19,8 +19,8 @@ struct NetworkKernels {
 
     uint32_t inferGroups(uint32_t rows) const { return (rows + inferRows - 1) / inferRows; }
     uint32_t forwardGroups(uint32_t rows) const { return (rows + forwardRows - 1) / forwardRows; }
-    uint32_t weightGradientGroups() const {
-        const uint32_t blocks = gpu::kGradientChunks * weightBlocks;
+    uint32_t weightGradientGroups(uint32_t chunks) const {
+        const uint32_t blocks = chunks * weightBlocks;
         return (blocks + weightBlocksPerGroup - 1) / weightBlocksPerGroup;
     }
 };

@@ -33,19 +33,30 @@ Loss makeLoss(Device& device, const ModelConfig& config, uint32_t outputs) {
     return {device, config.loss, outputs, static_cast<float>(config.optimizer.lossScale), kGradientLimitHalf};
 }
 
-// What the passes of one batch hand on; reused from batch to batch.
+// A CPU learns from a batch in parts of at most so many rows: what their passes hand on stays in its caches,
+// which makes them twice as fast. A GPU takes it as a whole.
+constexpr uint32_t kCpuPartRows = 2048;
+
+uint32_t partsOf(const Device& device, uint32_t batchRows) {
+    uint32_t parts = 1;
+    while (device.isCpu() && parts < gpu::kGradientChunks && batchRows > parts * kCpuPartRows) parts *= 2;
+    return parts;
+}
+
+// What the passes of one batch hand on; reused from batch to batch, and what belongs to a part from part to
+// part.
 struct BatchBuffers {
     BatchBuffers(Device& device, const Encoding& encoding, const Network& network, uint32_t rows,
-                 uint32_t quadBytes)
+                 uint32_t partRows, uint32_t quadBytes)
         : inputs(device, "batch inputs", uint64_t(rows) * encoding.inputQuads() * 16)
         , targets(device, "batch targets", uint64_t(rows) * network.outputQuads() * 16)
         , usable(device, "usable records", uint64_t(rows) * 4)
         , encoded(device, "encoded inputs", uint64_t(rows) * encoding.width() / 4 * quadBytes)
-        , activations(device, "activations", network.activationBytes(rows))
+        , activations(device, "activations", network.activationBytes(partRows))
         , results(device, "results", uint64_t(rows) * network.outputQuads() * 16)
         , resultGradient(device, "result gradient", uint64_t(rows) * network.outputQuads() * 16)
         , rowSums(device, "row losses", uint64_t(rows) * 16)
-        , layerGradients(device, "layer gradients", network.layerGradientBytes(rows))
+        , layerGradients(device, "layer gradients", network.layerGradientBytes(partRows))
         , encodedGradient(device, "gradient by encoded inputs",
                           encoding.featureCount() > 0 ? uint64_t(rows) * encoding.width() / 4 * quadBytes
                                                       : 16)
@@ -68,10 +79,11 @@ struct Trainer::State {
         , optimizer(d, c.optimizer)
         , weights(d, "weights", network.weightCount(), c.optimizer.learningRate, c.optimizer.l2, false)
         , features(d, "features", encoding.featureCount(), c.optimizer.gridLearningRate, 0.0, true)
-        , batchRows(padded(o.batchRows))
+        , partRows(padded((o.batchRows + partsOf(d, o.batchRows) - 1) / partsOf(d, o.batchRows)))
+        , batchRows(partRows * partsOf(d, o.batchRows))
         , inferRows(padded(o.inferRows))
         , quadBytes(c.network.precision == Precision::Half ? 8 : 16)
-        , batch(d, encoding, network, batchRows, quadBytes)
+        , batch(d, encoding, network, batchRows, partRows, quadBytes)
         , state(makeBuffer(d, "training state", std::vector{Optimizer::initialState()}))
         , packed(d, "packed weights", network.packedBytes())
         , inferPacked(d, "packed weights of predictions", network.packedBytes())
@@ -89,6 +101,7 @@ struct Trainer::State {
 
     void initialise();
     void gather(FrameGraph& graph, const Records& records, uint32_t index, uint32_t count);
+    void learnPart(FrameGraph& graph, uint32_t first);
     void learn(FrameGraph& graph, uint32_t number, std::optional<double> emaDecay);
     void packForTraining(FrameGraph& graph);
     void packForInference(FrameGraph& graph, Weights which);
@@ -101,7 +114,7 @@ struct Trainer::State {
     Loss loss;
     Optimizer optimizer;
     ParameterGroup weights, features;
-    uint32_t batchRows, inferRows, quadBytes;
+    uint32_t partRows, batchRows, inferRows, quadBytes;
     BatchBuffers batch;
     Buffer state; // gpu::TrainingState
     Buffer packed, inferPacked, inferEncoded;
@@ -152,19 +165,35 @@ void Trainer::State::gather(FrameGraph& graph, const Records& records, uint32_t 
         .dispatch(batchRows);
 }
 
+// Rows [first, first + partRows) of the batch, there and back.
+void Trainer::State::learnPart(FrameGraph& graph, uint32_t first) {
+    const RowCount rows{state, gpu::kBatchRowsWord, partRows, first};
+    const auto part = [&](const Buffer& buffer, uint64_t rowBytes) {
+        return BufferRange(buffer, first * rowBytes, partRows * rowBytes);
+    };
+    const uint64_t encodedBytes = uint64_t(encoding.width()) / 4 * quadBytes;
+    const uint64_t resultBytes = uint64_t(network.outputQuads()) * 16;
+    const BufferRange encoded = part(batch.encoded, encodedBytes), results = part(batch.results, resultBytes),
+                      resultGradient = part(batch.resultGradient, resultBytes);
+    network.forward(graph, rows, encoded, packed, batch.activations, results);
+    loss.evaluate(graph, partRows, state, batch.results, batch.targets, batch.usable, batch.resultGradient,
+                  batch.rowSums, first);
+    const bool hasFeatures = features.count > 0;
+    const BufferRange encodedGradient =
+        hasFeatures ? part(batch.encodedGradient, encodedBytes) : BufferRange(batch.encodedGradient);
+    network.backward(graph, rows, packed, batch.activations, results, resultGradient, batch.layerGradients,
+                     hasFeatures ? &encodedGradient : nullptr);
+    network.weightGradient(graph, rows, batchRows, encoded, batch.activations, batch.layerGradients,
+                           batch.partials);
+}
+
 // `number`: the batch's in the first pass, or gpu::kLaterPass.
 void Trainer::State::learn(FrameGraph& graph, uint32_t number, std::optional<double> emaDecay) {
     const RowCount rows{state, gpu::kBatchRowsWord, batchRows};
     encoding.encode(graph, rows, batch.inputs, features.values, batch.encoded);
-    network.forward(graph, rows, batch.encoded, packed, batch.activations, batch.results);
-    loss.evaluate(graph, batchRows, state, batch.results, batch.targets, batch.usable, batch.resultGradient,
-                  batch.rowSums);
+    for (uint32_t first = 0; first < batchRows; first += partRows) learnPart(graph, first);
     loss.endBatch(graph, state, batch.rowSums, number);
-    const BufferRange encodedGradient(batch.encodedGradient);
-    network.backward(graph, rows, packed, batch.activations, batch.results, batch.resultGradient,
-                     batch.layerGradients, features.count > 0 ? &encodedGradient : nullptr);
-    network.weightGradient(graph, rows, batch.encoded, batch.activations, batch.layerGradients,
-                           batch.partials, weights.gradients, state, gpu::kGradientScaleWord);
+    network.sumGradients(graph, batch.partials, weights.gradients, state, gpu::kGradientScaleWord);
     if (features.count > 0) {
         encoding.accumulateGradient(graph, rows, batch.inputs, batch.encodedGradient, batch.featureSums);
         encoding.takeGradient(graph, batch.featureSums, features.gradients, state, gpu::kGradientScaleWord);

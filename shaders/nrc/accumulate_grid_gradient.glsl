@@ -46,7 +46,7 @@ void loadGradient(uint row, uint l, out float gradient[kFeatures]) {
 void main() {
     uint l;
     uint row = rowAndGroup(l);
-    if (row >= counters[params.counter]) return;
+    if (row >= ROW_COUNT) return;
     loadInputs(row);
     float gradient[kFeatures];
     loadGradient(row, l, gradient);

@@ -45,7 +45,7 @@ void storeInputGradient(uint row, uint quad) {
 
 void main() {
     uint row = firstRow();
-    if (row - gl_SubgroupInvocationID >= counters[params.counter]) return;
+    if (row - gl_SubgroupInvocationID >= ROW_COUNT) return;
 
     beginWithResults(row);
     for (uint quad = 0u; quad < kWidthQuads; ++quad) {

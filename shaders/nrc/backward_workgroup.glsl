@@ -53,7 +53,7 @@ void inputLayer(uint first) {
 
 void main() {
     uint first = firstRow();
-    if (first >= counters[params.counter]) return;
+    if (first >= ROW_COUNT) return;
     beginWithResults(first);
     hiddenLayer(first, kHiddenLayers - 1u, kOutputTransposed, kOutputQuads);
     for (uint layer = kHiddenLayers - 1u; layer > 0u; --layer)

@@ -12,7 +12,7 @@ const uint kValues = kDims * kFrequencies * (kTriangle ? 1u : 2u);
 
 void main() {
     uint row = gl_GlobalInvocationID.x;
-    if (row >= counters[params.counter]) return;
+    if (row >= ROW_COUNT) return;
     loadInputs(row);
     float values[kValues];
     [[unroll]] for (uint d = 0u; d < kDims; ++d)

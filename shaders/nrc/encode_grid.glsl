@@ -73,7 +73,7 @@ void storeMean(uint row, vec3 position) {
 void main() {
     uint group;
     uint row = rowAndGroup(group);
-    if (row >= counters[params.counter]) return;
+    if (row >= ROW_COUNT) return;
     loadInputs(row);
     vec3 position = gridPosition();
     if (kMean) storeMean(row, position);

@@ -8,7 +8,7 @@ QUADS_WRITE(2, encoded);
 
 void main() {
     uint row = gl_GlobalInvocationID.x;
-    if (row >= counters[params.counter]) return;
+    if (row >= ROW_COUNT) return;
     loadInputs(row);
     float values[kDims];
     [[unroll]] for (uint d = 0u; d < kDims; ++d) values[d] = kScale * x[d] + kOffset;

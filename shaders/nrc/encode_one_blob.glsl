@@ -14,7 +14,7 @@ float kernelCdf(float u) { return kGaussian ? gaussianCdf(u) : quarticCdf(u); }
 
 void main() {
     uint row = gl_GlobalInvocationID.x;
-    if (row >= counters[params.counter]) return;
+    if (row >= ROW_COUNT) return;
     loadInputs(row);
     float values[kValues];
     [[unroll]] for (uint d = 0u; d < kDims; ++d) {

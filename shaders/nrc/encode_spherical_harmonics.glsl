@@ -8,7 +8,7 @@ QUADS_WRITE(2, encoded);
 
 void main() {
     uint row = gl_GlobalInvocationID.x;
-    if (row >= counters[params.counter]) return;
+    if (row >= ROW_COUNT) return;
     loadInputs(row);
     float values[16];
     sphericalHarmonics(vec3(x[0], x[1], x[2]), values);

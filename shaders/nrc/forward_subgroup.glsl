@@ -35,7 +35,7 @@ void storeResults(uint row, uint quad) {
 
 void main() {
     uint row = firstRow();
-    if (row - gl_SubgroupInvocationID >= counters[params.counter]) return;
+    if (row - gl_SubgroupInvocationID >= ROW_COUNT) return;
 
     [[unroll]] for (uint r = 0u; r < kRows; ++r)
         [[unroll]] for (uint i = 0u; i < kInputQuads; ++i)

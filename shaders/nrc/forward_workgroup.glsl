@@ -46,7 +46,7 @@ void outputLayer(uint first) {
 
 void main() {
     uint first = firstRow();
-    if (first >= counters[params.counter]) return;
+    if (first >= ROW_COUNT) return;
     loadInputs(first);
     hiddenLayer(first, 0u, kInputMatrix, kInputQuads);
     for (uint layer = 1u; layer < kHiddenLayers; ++layer)

@@ -43,7 +43,7 @@ vec4 handedOn(vec4 gradient) { return clamp(params.lossScale * gradient, -params
 float brightness(vec4 values) { return kOutputs == 3u ? luminance(values.xyz) : dot(values, vec4(1.0 / float(kOutputs))); }
 
 void main() {
-    uint row = gl_GlobalInvocationID.x;
+    uint row = params.first + gl_GlobalInvocationID.x;
     if (row >= state.batchRows) return;
     vec4 gradient[kQuads];
     float loss = 0.0, predicted = 0.0, wanted = 0.0;

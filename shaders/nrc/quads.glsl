@@ -13,3 +13,6 @@ uvec2 quadBits(vec4 v) { return uvec2(packHalf2x16(v.xy), packHalf2x16(v.zw)); }
 uvec4 quadBits(vec4 v) { return floatBitsToUint(v); }
 #endif
 #define storeQuad(name, index, value) name[index] = quadBits(value)
+
+// How many of the rows that a pass may have there are, from its `params` and `counters`.
+#define ROW_COUNT (max(counters[params.counter], params.first) - params.first)

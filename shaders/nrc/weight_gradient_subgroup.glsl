@@ -49,10 +49,10 @@ void loadRows(Block b, uint row, uint end) {
 void main() {
     uint index = gl_WorkGroupID.x * gl_NumSubgroups + gl_SubgroupID;
     uint chunk = index / params.blocks;
-    if (chunk >= kGradientChunks) return;
+    if (chunk >= params.chunks) return;
     Block b = blockAt(index % params.blocks, gl_SubgroupInvocationID);
     uint row = chunk * params.chunkRows;
-    uint end = min(row + params.chunkRows, counters[params.counter]);
+    uint end = min(row + params.chunkRows, ROW_COUNT);
 
     vec4 sums[kOutputsTogether];
     [[unroll]] for (uint o = 0u; o < kOutputsTogether; ++o) sums[o] = vec4(0.0);
@@ -65,5 +65,5 @@ void main() {
     }
     if (b.quad >= b.matrixQuads) return;
     [[unroll]] for (uint o = 0u; o < kOutputsTogether; ++o)
-        storeRecord(partials, chunk * params.weightQuads + b.matrix + (b.firstOutput + o) * b.matrixQuads + b.quad, floatBitsToUint(sums[o]));
+        storeRecord(partials, (params.firstChunk + chunk) * params.weightQuads + b.matrix + (b.firstOutput + o) * b.matrixQuads + b.quad, floatBitsToUint(sums[o]));
 }

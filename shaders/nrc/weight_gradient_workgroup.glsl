@@ -42,7 +42,7 @@ void main() {
     uint threadOutput = gl_LocalInvocationID.x / kQuadsTogether * kThreadOutputs;
     Block b = blockAt(gl_WorkGroupID.x % params.blocks, threadQuad);
     uint begin = chunk * params.chunkRows;
-    uint end = min(begin + params.chunkRows, counters[params.counter]);
+    uint end = min(begin + params.chunkRows, ROW_COUNT);
 
     vec4 sums[kThreadOutputs];
     [[unroll]] for (uint o = 0u; o < kThreadOutputs; ++o) sums[o] = vec4(0.0);
@@ -62,6 +62,6 @@ void main() {
     if (b.quad >= b.matrixQuads) return;
     [[unroll]] for (uint o = 0u; o < kThreadOutputs; ++o)
         if (threadOutput + o < max(outputs, kFeaturePadding))
-            storeRecord(partials, chunk * params.weightQuads + b.matrix + (b.firstOutput + threadOutput + o) * b.matrixQuads + b.quad,
+            storeRecord(partials, (params.firstChunk + chunk) * params.weightQuads + b.matrix + (b.firstOutput + threadOutput + o) * b.matrixQuads + b.quad,
                         floatBitsToUint(sums[o]));
 }

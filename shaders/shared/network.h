@@ -26,10 +26,12 @@ SHARED_CONST uint kOutputReLU = 1u;
 SHARED_CONST uint kOutputExponential = 2u; // exp(min(z, 30))
 SHARED_CONST uint kOutputSoftplus = 3u;    // log(1 + exp(z))
 
-// Where a batch's number of rows stands: word `counter` of a buffer of uints.
+// Rows [first, first + capacity) of a batch, whose number of rows is word `counter` of a buffer of uints. Buffers hold
+// these alone, and have room for all of them.
 struct RowsParams {
     uint counter;
-    uint capacity; // rows that the buffers have room for, a multiple of kRowPadding
+    uint capacity; // a multiple of kRowPadding
+    uint first;    // likewise
 };
 
 // A level of a feature grid. A point p of the unit cube lies at p scale + 1/2 in cells, and corner (x, y, z) has entry
@@ -57,10 +59,14 @@ struct TakeGradientParams {
     uint scaleWord; // of the buffer that holds the factor
 };
 
-// weight_gradient: rows are summed in kGradientChunks chunks of chunkRows rows, a multiple of kTileRows.
+// weight_gradient: a batch's rows are summed in kGradientChunks chunks of chunkRows rows, a multiple of kTileRows. A pass
+// sums `chunks` of them, from firstChunk on, whose rows are those from `first` on.
 SHARED_CONST uint kGradientChunks = 32u;
 struct WeightGradientParams {
     uint counter;
+    uint first;
+    uint firstChunk;
+    uint chunks;
     uint chunkRows;
     uint blocks;      // that tile all matrices
     uint weightQuads; // of a chunk's partial sums

@@ -67,6 +67,7 @@ struct LossParams {
     uint annealEnd;
     float lossScale;
     float gradientLimit; // of a result's gradient, scaled
+    uint first; // row
 };
 
 struct EndBatchParams {

@@ -122,8 +122,8 @@ NetworkOutputs NetworkHarness::run(const NetworkBatch& batch, float scale) {
     network_.forward(graph, count, encoded, packed_, activations, results);
     network_.backward(graph, count, packed_, activations, results, resultGradient, layerGradients,
                       &inputGradientRange);
-    network_.weightGradient(graph, count, encoded, activations, layerGradients, partials, gradients, scales,
-                            1);
+    network_.weightGradient(graph, count, capacity_, encoded, activations, layerGradients, partials);
+    network_.sumGradients(graph, partials, gradients, scales, 1);
     graph.execute();
 
     const auto gradient = download<float>(validatedDevice(), gradients, network_.weightCount());

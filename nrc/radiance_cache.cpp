@@ -121,7 +121,7 @@ void RadianceCache::beginQueries(FrameGraph& graph) {
     graph.fill(word(state_->counters, gpu::kQueryCounter), 0);
 }
 
-void RadianceCache::answer(FrameGraph& graph, BufferRange radiance, Weights weights) {
+void RadianceCache::answer(FrameGraph& graph, BufferRange radiance, Weights weights, bool reflectance) {
     State& s = *state_;
     const RowCount rows{s.counters, gpu::kQueryCounter, s.queryRows};
     s.trainer.infer(graph, rows, s.queries, s.predictions, weights);
@@ -132,7 +132,7 @@ void RadianceCache::answer(FrameGraph& graph, BufferRange radiance, Weights weig
         .read(s.predictions)
         .read(s.state)
         .readWrite(radiance)
-        .push(gpu::ResolveParams{s.options.factorise ? 1u : 0u})
+        .push(gpu::ResolveParams{s.options.factorise && reflectance ? 1u : 0u})
         .dispatch(s.options.queries);
 }
 

@@ -55,7 +55,9 @@ public:
     void begin(FrameGraph& graph);
     void beginQueries(FrameGraph& graph);
     // Adds weight * prediction to radiance[path] (vec4) of every query since beginQueries().
-    void answer(FrameGraph& graph, BufferRange radiance, Weights weights = Weights::Ema);
+    // `reflectance` false: of a cache that factorises, what the network itself predicts.
+    void answer(FrameGraph& graph, BufferRange radiance, Weights weights = Weights::Ema,
+                bool reflectance = true);
     // Learns from `paths` training paths, those from number 0 on.
     void learn(FrameGraph& graph, uint32_t paths, const TrainingEffort& effort = {});
 

@@ -151,6 +151,8 @@ TEST_CASE("bad input ends in a sentence and an exit code, and leaves the old fil
         {"render " + scene + " --camera nobody -o " + out, 66},
         {"render " + scene + " --device nothing -o " + out, 69},
         {"render " + scene + " --network a.json -o " + out, 64},
+        {"render " + scene + " --view prediction -o " + out, 64},
+        {"render " + scene + " --method nrc --view nothing -o " + out, 64},
         {"render " + scene + " --size 16x16 -o " + (folder / "no/such/folder.exr").string(), 74},
         {"render " + scene, 64},
     };

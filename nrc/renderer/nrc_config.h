@@ -38,7 +38,8 @@ struct NrcConfig {
     bool factorise = true;               // predictions are multiplied by the reflectance
     Weights selfTraining = Weights::Ema; // whose predictions end training paths
     Weights shown = Weights::Ema;        // whose predictions are rendered
-    ModelConfig model;                   // default: that of the preset "faithful"
+    bool showReflectance = true; // false: predictions are rendered without the reflectance, to be looked at
+    ModelConfig model;           // default: that of the preset "faithful"
 };
 
 // Throws Error: NotFound, or BadData naming the file and the key that is unknown or out of range.

@@ -65,7 +65,7 @@ void NrcRenderer::renderFrame(const Camera& camera, uint32_t index) {
             cache_.beginQueries(graph);
             tracer_.traceWave(camera, wave, index, sample, &paths);
             graph.section("query");
-            cache_.answer(graph, tracer_.radiance(), options_.config.shown);
+            cache_.answer(graph, tracer_.radiance(), options_.config.shown, options_.config.showReflectance);
             graph.section("");
         }
         tracer_.addToFilm(wave);

@@ -22,8 +22,7 @@ struct RenderOptions {
 };
 
 // Options of the design that later versions bring: known, and refused in one sentence.
-constexpr const char* kLaterOptions[] = {"--view",        "--model",     "--at",
-                                         "--camera-path", "--reference", "--checkpoint"};
+constexpr const char* kLaterOptions[] = {"--model", "--at", "--camera-path", "--reference", "--checkpoint"};
 constexpr const char* kLaterFlags[] = {"--denoise", "--sequence", "--resume"};
 
 struct FrameRange {
@@ -83,9 +82,10 @@ void describe(LayeredImage& image, RenderSession& session, uint32_t frames, uint
     a["irradia.method"] = request.method;
     a["irradia.seed"] = std::to_string(request.seed);
     a["irradia.frames"] = fmt::format("{}-{}", endFrame - frames, endFrame);
-    a["irradia.options"] = fmt::format(
-        "--size {} --spp {} --max-bounces {} --camera '{}' --env '{}' --changes '{}'", request.size,
-        request.samplesPerFrame, request.maxBounces, request.camera, request.environment, request.changes);
+    a["irradia.options"] =
+        fmt::format("--size {} --spp {} --max-bounces {} --camera '{}' --env '{}' --changes '{}' --view '{}'",
+                    request.size, request.samplesPerFrame, request.maxBounces, request.camera,
+                    request.environment, request.changes, request.view);
 }
 
 void render(const RenderOptions& options) {

@@ -26,11 +26,37 @@ void requireKnownMethod(const std::string& method) {
     fail(ExitCode::Usage, "--method {} is unknown; this version has pt, nrc and cache-view", method);
 }
 
+// What --view shows: the cache at the first hit, in place of the picture.
+struct CacheView {
+    const char* name;
+    Weights weights;
+    bool reflectance;
+};
+constexpr CacheView kCacheViews[] = {{"prediction", Weights::Ema, true},
+                                     {"without-reflectance", Weights::Ema, false},
+                                     {"raw-weights", Weights::Raw, true}};
+
+void applyView(const std::string& name, NrcConfig& config) {
+    std::vector<std::string> names;
+    for (const CacheView& view : kCacheViews) {
+        names.emplace_back(view.name);
+        if (name != view.name) continue;
+        if (!view.reflectance && !config.factorise)
+            fail(ExitCode::Usage, "--view {}: this cache does not factorise its reflectance", name);
+        config.endDepth = 0;
+        config.shown = view.weights;
+        config.showReflectance = view.reflectance;
+        return;
+    }
+    fail(ExitCode::Usage, "--view {} is unknown; there are {}", name, fmt::join(names, ", "));
+}
+
 NrcConfig nrcConfig(const RenderRequest& request) {
     NrcConfig config =
         request.preset.ends_with(".json") ? loadNrcConfig(request.preset) : nrcPreset(request.preset);
     if (!request.network.empty()) config.model = loadModelConfig(request.network);
     if (request.method == "cache-view") config.endDepth = 0;
+    if (!request.view.empty()) applyView(request.view, config);
     return config;
 }
 
@@ -62,6 +88,11 @@ void addRequestOptions(CLI::App& command, RenderRequest& request) {
                     fmt::format("Of the cache: {}, or a .json file", fmt::join(nrcPresetNames(), ", ")))
         ->group("Method")
         ->capture_default_str();
+    command
+        .add_option("--view", request.view,
+                    "The cache at the first hit instead of the picture: prediction, without-reflectance, or "
+                    "raw-weights (the latest, not their average)")
+        ->group("Method");
     command.add_option("--network", request.network, "Model of the cache, a .json file")->group("Method");
     command.add_option("--size", request.size, "Picture, WxH")->group("Method")->capture_default_str();
     command.add_option("--spp", request.samplesPerFrame, "Samples of a pixel per frame")
@@ -122,6 +153,8 @@ void RenderSession::createRenderer(const SceneRecords& records, const Bvh& bvh) 
     const bool hasCache = request_.method != "pt";
     if (!hasCache && !request_.network.empty())
         fail(ExitCode::Usage, "--network is for the methods with a cache; --method pt has none");
+    if (!hasCache && !request_.view.empty())
+        fail(ExitCode::Usage, "--view is for the methods with a cache; --method pt has none");
     if (hasCache) options.config = nrcConfig(request_);
 
     auto plan = plannedBuffers(records, bvh);

@@ -20,6 +20,7 @@ struct RenderRequest {
     uint32_t maxBounces = 16;
     uint32_t seed = 1;
     std::string preset = "balanced"; // of the methods with a cache: a name, or a file
+    std::string view;                // of those methods: prediction, ...; empty = the picture
     std::string network;             // JSON of nrc/config.h, instead of the preset's model
     std::string camera;
     std::string environment;

@@ -23,7 +23,7 @@ ModelFile smallModel() {
     ModelFile model{kShape, R"({"network": {}})", {}, {1.0f, -0.0f, 3.5e-42f, INFINITY, NAN, 7.0f}};
     model.state.steps = 123456;
     model.state.eta2 = 0.1f;
-    model.state.unused1 = 9;
+    model.state.meanTarget = 9;
     return model;
 }
 

@@ -26,9 +26,9 @@ struct LossBatch {
 };
 
 struct LossOutputs {
-    std::vector<double> gradient;               // rows of `outputs`, of the mean
-    std::vector<double> padding;                // of the gradient's last quads
-    std::vector<double> rowLoss, rowBrightness; // the latter of prediction and target in turn
+    std::vector<double> gradient; // rows of `outputs`, of the mean
+    std::vector<double> padding;  // of the gradient's last quads
+    std::vector<double> rowLoss;
     gpu::TrainingState state{};
 };
 
@@ -76,10 +76,8 @@ LossOutputs evaluate(const LossConfig& config, const LossBatch& batch, uint32_t 
     for (size_t i = 0; i < all.size(); ++i)
         (i % whole.width < batch.outputs ? outputs.gradient : outputs.padding)
             .push_back(all[i] * outputs.state.gradientScale);
-    for (const glm::vec4& sums : download<glm::vec4>(device, rowSums, batch.count())) {
+    for (const glm::vec4& sums : download<glm::vec4>(device, rowSums, batch.count()))
         outputs.rowLoss.push_back(sums.x);
-        outputs.rowBrightness.insert(outputs.rowBrightness.end(), {sums.y, sums.z});
-    }
     return outputs;
 }
 

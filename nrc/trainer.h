@@ -47,7 +47,8 @@ struct TrainingCounts {
 
 // What one call of train() does with its records.
 struct TrainingEffort {
-    // 0 = a pass; more than its batches: further passes, each in an order of its own, the last maybe cut short
+    // 0 = a pass; more than its batches: further passes, each in an order of its own, the last maybe cut
+    // short
     uint32_t steps = 0;
     std::optional<double> emaDecay; // instead of the optimizer's, in [0, 1)
 };

@@ -49,7 +49,7 @@ public:
                    const CachePaths* cache = nullptr);
     void addToFilm(const Wave& wave);
     void endFrame();
-    void forgetFilm(); // the next frame is the film's first
+    void forgetFilm();                                   // the next frame is the film's first
     const Buffer& radiance() const { return radiance_; } // vec4 per path of the wave
     uint32_t largestWave() const { return waveSize_; }
     static uint32_t largestWave(const Device& device, const PathTracerOptions& options);

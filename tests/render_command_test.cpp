@@ -51,6 +51,22 @@ TEST_CASE("the same command gives the same pixels, with one thread or two, at an
     for (const float v : images[0].channels.at("R")) CHECK(std::isfinite(v));
 }
 
+TEST_CASE("the cache trains to the same bits with one thread or two") {
+    const TemporaryFolder folder;
+    const std::string arguments =
+        "render " + kScenes +
+        "cornell-box.glb --size 40x30 --frames 6 --warmup 2 --method nrc --preset fast -o ";
+    std::vector<LayeredImage> images;
+    for (const char* threads : {"LP_NUM_THREADS=1", "LP_NUM_THREADS=2"}) {
+        const std::string file = (folder / ("image" + std::to_string(images.size()) + ".exr")).string();
+        REQUIRE(run(threads, arguments + file).code == 0);
+        images.push_back(readExr(file));
+    }
+    CHECK(images[0].channels == images[1].channels);
+    for (const char* name : {"cache", "model", "trainingSteps"})
+        CHECK(images[0].attributes.count(std::string("irradia.") + name) == 1);
+}
+
 TEST_CASE("a range of frames is the frames of that number") {
     const TemporaryFolder folder;
     const std::string base = "render " + kScenes + "cornell-box.glb --size 16x16 --max-bounces 2 -o ";

@@ -69,7 +69,8 @@ uint32_t renderFrames(RenderSession& session, const RenderOptions& options) {
 }
 
 // Everything that decides the picture, so that it can be made again.
-void describe(LayeredImage& image, RenderSession& session, uint32_t frames, uint32_t endFrame) {
+void describe(LayeredImage& image, RenderSession& session, uint32_t frames, uint32_t endFrame,
+              uint32_t warmup) {
     const RenderRequest& request = session.request();
     auto& a = image.attributes;
     a["irradia.version"] = IRRADIA_VERSION;
@@ -86,6 +87,12 @@ void describe(LayeredImage& image, RenderSession& session, uint32_t frames, uint
         fmt::format("--size {} --spp {} --max-bounces {} --camera '{}' --env '{}' --changes '{}' --view '{}'",
                     request.size, request.samplesPerFrame, request.maxBounces, request.camera,
                     request.environment, request.changes, request.view);
+    if (!session.nrc()) return;
+    RadianceCache& cache = session.nrc()->cache();
+    a["irradia.cache"] =
+        fmt::format("--preset '{}' --network '{}' --warmup {}", request.preset, request.network, warmup);
+    a["irradia.model"] = toJson(cache.trainer().config());
+    a["irradia.trainingSteps"] = std::to_string(session.nrc()->counts().training.steps);
 }
 
 void render(const RenderOptions& options) {
@@ -97,7 +104,7 @@ void render(const RenderOptions& options) {
 
     const FilmImage film = session.tracer().readFilm();
     LayeredImage image = toLayers(film);
-    describe(image, session, film.frames, end);
+    describe(image, session, film.frames, end, options.warmup);
     writeExr(options.output, image);
     if (!options.png.empty()) writePng(options.png, toDisplay(film.width, film.height, film.mean));
     if (!options.stats.empty()) {

@@ -2,27 +2,24 @@
 
 #include "engine/error.h"
 #include "kernels/nrc.h"
+#include "nrc/row_padding.h"
 #include "shared/network.h"
 #include <algorithm>
 
 namespace irradia {
 namespace {
 
-uint32_t padded(uint32_t rows) {
-    return (std::max(rows, 1u) + gpu::kRowPadding - 1) / gpu::kRowPadding * gpu::kRowPadding;
-}
-
 // Rows that the frame's records may take: their number follows the picture, and is never exactly what was
 // wanted.
 uint32_t recordCapacity(const CacheOptions& options) {
-    const uint32_t batch = padded((options.records + options.records / 2) / std::max(options.steps, 1u));
+    const uint32_t batch = paddedRows((options.records + options.records / 2) / std::max(options.steps, 1u));
     return batch * std::max(options.steps, 1u);
 }
 
 TrainerOptions trainerOptions(const CacheOptions& options) {
     TrainerOptions trainer;
     trainer.batchRows = recordCapacity(options) / std::max(options.steps, 1u);
-    trainer.inferRows = padded(std::max(options.queries, options.trainingPaths));
+    trainer.inferRows = paddedRows(std::max(options.queries, options.trainingPaths));
     trainer.seed = options.seed;
     trainer.touched = options.touched;
     return trainer;
@@ -42,8 +39,8 @@ struct RadianceCache::State {
         : device(d)
         , options(o)
         , capacity(recordCapacity(o))
-        , queryRows(padded(o.queries))
-        , pathRows(padded(o.trainingPaths))
+        , queryRows(paddedRows(o.queries))
+        , pathRows(paddedRows(o.trainingPaths))
         , trainer(d, o.model, gpu::kCacheInputs, gpu::kCacheOutputs, trainerOptions(o))
         , queries(d, "cache queries", queryRows * kInputBytes)
         , queryWeights(d, "query weights", uint64_t(queryRows) * 16)
@@ -81,7 +78,7 @@ RadianceCache::RadianceCache(Device& device, const CacheOptions& options)
 RadianceCache::~RadianceCache() = default;
 
 std::vector<Device::PlannedBuffer> RadianceCache::plannedBuffers(const CacheOptions& options) {
-    const uint64_t paths = padded(options.trainingPaths), queries = padded(options.queries);
+    const uint64_t paths = paddedRows(options.trainingPaths), queries = paddedRows(options.queries);
     return {
         {"cache queries", queries * (kInputBytes + 16) + std::max(queries, paths) * 16},
         {"training paths", paths * (gpu::kTrainingPathVectors * 16 + kVertexBytes + kInputBytes + 16 + 4)},

@@ -5,6 +5,7 @@
 #include "nrc/loss.h"
 #include "nrc/model_file.h"
 #include "nrc/optimizer.h"
+#include "nrc/row_padding.h"
 #include "shared/network.h"
 #include <algorithm>
 #include <fmt/format.h>
@@ -23,10 +24,6 @@ constexpr float kGradientLimitHalf = 4096.0f;
 
 static_assert(offsetof(gpu::TrainingState, batchRows) == 4 * gpu::kBatchRowsWord);
 static_assert(offsetof(gpu::TrainingState, gradientScale) == 4 * gpu::kGradientScaleWord);
-
-uint32_t padded(uint32_t rows) {
-    return (std::max(rows, 1u) + gpu::kRowPadding - 1) / gpu::kRowPadding * gpu::kRowPadding;
-}
 
 Loss makeLoss(Device& device, const ModelConfig& config, uint32_t outputs) {
     if (config.network.precision == Precision::Float) return {device, config.loss, outputs, 1.0f};
@@ -79,9 +76,9 @@ struct Trainer::State {
         , optimizer(d, c.optimizer)
         , weights(d, "weights", network.weightCount(), c.optimizer.learningRate, c.optimizer.l2, false)
         , features(d, "features", encoding.featureCount(), c.optimizer.gridLearningRate, 0.0, true)
-        , partRows(padded((o.batchRows + partsOf(d, o.batchRows) - 1) / partsOf(d, o.batchRows)))
+        , partRows(paddedRows((o.batchRows + partsOf(d, o.batchRows) - 1) / partsOf(d, o.batchRows)))
         , batchRows(partRows * partsOf(d, o.batchRows))
-        , inferRows(padded(o.inferRows))
+        , inferRows(paddedRows(o.inferRows))
         , quadBytes(c.network.precision == Precision::Half ? 8 : 16)
         , batch(d, encoding, network, batchRows, partRows, quadBytes)
         , state(makeBuffer(d, "training state", std::vector{Optimizer::initialState()}))

@@ -1,6 +1,7 @@
 #include "samples/fit_image/image_learner.h"
 
 #include "kernels/pixels.h"
+#include "nrc/row_padding.h"
 #include "samples/fit_image/pixels/pixels.h"
 #include "shared/network.h"
 #include <algorithm>
@@ -16,16 +17,12 @@ constexpr uint64_t kRecordBytes = 16;
 
 enum Counter : uint32_t { BatchRows, PredictedRows, Counters };
 
-uint32_t padded(uint32_t rows) {
-    return (rows + gpu::kRowPadding - 1) / gpu::kRowPadding * gpu::kRowPadding;
-}
-
 uint32_t pixelCount(const Picture& picture) {
     return picture.width * picture.height;
 }
 
 uint32_t inferRows(const Picture& picture) {
-    return std::min(padded(pixelCount(picture)), kMaxInferRows);
+    return std::min(paddedRows(pixelCount(picture)), kMaxInferRows);
 }
 
 TrainerOptions trainerOptions(const Picture& picture, const LearnerOptions& options) {

@@ -1,4 +1,5 @@
 #include "bench_mlp_cases.h"
+#include "nrc/row_padding.h"
 #include "nrc/trainer.h"
 #include "shared/network.h"
 #include <chrono>
@@ -6,10 +7,6 @@
 
 namespace irradia {
 namespace {
-
-uint32_t paddedRows(uint32_t rows) {
-    return (rows + gpu::kRowPadding - 1) / gpu::kRowPadding * gpu::kRowPadding;
-}
 
 uint32_t quadsOf(uint32_t values) {
     return (values + 3) / 4;

@@ -4,7 +4,7 @@
 namespace irradia {
 namespace {
 
-constexpr uint32_t kOutputsTogether = 16; // of weight_gradient_subgroup.glsl
+constexpr uint32_t kOutputsTogether = 16; // of weight_gradient_subgroup.comp
 
 // Rows of a lane that are fastest on CPUs. Evaluating, four fill the vector registers, but of 128 neurons
 // they leave the first-level cache; training, where stores cost as much, two are as fast and compile in half

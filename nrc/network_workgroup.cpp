@@ -10,7 +10,7 @@ constexpr uint32_t kSharedLimit = 32u << 10; // more would keep a second workgro
 constexpr uint32_t kLargestTile = 64;
 constexpr uint32_t kSmallestTile = 16;
 constexpr uint32_t kThreadRows = 4;    // of mlp_workgroup.glsl
-constexpr uint32_t kThreadOutputs = 8; // of weight_gradient_workgroup.glsl
+constexpr uint32_t kThreadOutputs = 8; // of weight_gradient_workgroup.comp
 constexpr uint32_t kStagedRows = 32;   // likewise
 
 // Rows that a workgroup keeps, and outputs whose weights pass through its shared memory together.

@@ -20,7 +20,8 @@ std::vector<Device::PlannedBuffer> plannedBuffers(const SceneRecords& records, c
         {"attributes", bytes(records.attributes)},
         {"texels", bytes(records.texels)},
         {"environment", bytes(records.environment) + bytes(records.environmentAlias)},
-        {"materials and lights", bytes(records.materials) + bytes(records.textures) + bytes(records.lights)}};
+        {"materials and lights", bytes(records.materials) + bytes(records.textures) + bytes(records.lights)},
+        {"area table", bytes(records.areaTable)}};
 }
 
 GpuScene uploadScene(Device& device, const SceneRecords& records, const Bvh& bvh, const Bounds& bounds) {
@@ -34,6 +35,7 @@ GpuScene uploadScene(Device& device, const SceneRecords& records, const Bvh& bvh
     scene.lights = makeBuffer(device, "lights", records.lights);
     scene.environment = makeBuffer(device, "environment", records.environment);
     scene.environmentAlias = makeBuffer(device, "environment alias table", records.environmentAlias);
+    if (!records.areaTable.empty()) scene.areaTable = makeBuffer(device, "area table", records.areaTable);
     scene.reflectanceTable = makeBuffer(device, "reflectance table", buildReflectanceTable());
     scene.needs = records.needs;
     scene.triangles = static_cast<uint32_t>(records.geometry.size() / gpu::kGeometryRecords);

@@ -17,6 +17,7 @@ struct GpuScene {
     Buffer lights;
     Buffer environment;
     Buffer environmentAlias;
+    Buffer areaTable; // none unless it was packed
     Buffer reflectanceTable;
 
     SceneNeeds needs;

@@ -36,6 +36,7 @@ struct SceneRecords {
     std::vector<glm::uvec4> lights;
     std::vector<glm::uvec4> environment;
     std::vector<glm::uvec4> environmentAlias;
+    std::vector<glm::uvec4> areaTable; // empty unless packAreaTable has added it
     uint32_t environmentWidth = 0;
     uint32_t environmentHeight = 0;
     SceneNeeds needs;

@@ -36,6 +36,8 @@ SHARED_CONST uint kNoTexture = 0xffffffffu;
 //   keep probability (float), alias (light index), primitive, probability mass of this light (float)
 // Environment texel, 1 record: radiance rgb, density = probability mass * texel count (float).
 // Environment alias table, 1 record per texel: keep probability (float), alias, unused.
+// Area table, 1 record per triangle, an entry of the alias table over area: keep probability (float), alias, unused.
+// Only where surfaces are sampled.
 
 // Which textures any material of the scene uses (specialisation constant kTextureMask).
 SHARED_CONST uint kBaseColorTexture = 1u;

@@ -1,5 +1,6 @@
 // Training paths of traced scenes: their inputs, and that they ask and end where the spread rule says, as
 // follows in double precision from the positions that were recorded.
+#include "engine/scene/area_table.h"
 #include "engine/scene/load_scene.h"
 #include "tests/reference/simple_scenes.h"
 #include "tests/support/kernel_harness.h"
@@ -25,12 +26,14 @@ struct Recorded {
     size_t queries = 0;
 };
 
-// Training paths of one frame, one for each pixel.
-Recorded record(const Scene& scene, const GpuScene& gpu, const Camera& camera, float spread) {
+// Training paths of one frame: one for each pixel, or that of one pixel and after it those from surfaces.
+Recorded record(const Scene& scene, const GpuScene& gpu, const Camera& camera, float spread,
+                uint32_t surfacePaths = 0) {
     PathTracerOptions options;
     options.width = options.height = 64;
     options.maxBounces = 12;
-    OracleCache oracle(validatedDevice(), options, 0.5f, 64, 64);
+    const uint32_t tiles = surfacePaths > 0 ? 1 : 64;
+    OracleCache oracle(validatedDevice(), options, 0.5f, tiles, tiles, surfacePaths);
     const Bounds bounds = sceneBounds(scene);
     const glm::vec3 extent = bounds.upper - bounds.lower;
     const float longest = std::max({extent.x, extent.y, extent.z}), slack = 1e-4f * longest;
@@ -55,7 +58,9 @@ bool isInUnitCube(const Values& inputs) {
 }
 
 GpuScene toGpu(const Scene& scene) {
-    return uploadScene(validatedDevice(), packScene(scene), buildBvh(scene), sceneBounds(scene));
+    SceneRecords records = packScene(scene);
+    packAreaTable(records);
+    return uploadScene(validatedDevice(), records, buildBvh(scene), sceneBounds(scene));
 }
 
 Vec3 positionOf(const Values& inputs, const reference::CacheBox& box) {
@@ -119,6 +124,8 @@ Scene lambertBox() {
     return scene;
 }
 
+const Camera kCamera = reference::lookAt({0.1f, 0.2f, 0.7f}, {0.0f, 0.1f, -1.0f}, 1.2f); // in the box
+
 Vec3 nearestAxis(const Vec3& v) {
     Vec3 axis(0.0);
     for (int i = 0; i < 3; ++i)
@@ -177,7 +184,7 @@ Agreement compare(const Recorded& recorded, const CacheSettings& settings, const
 TEST_CASE("traced paths ask and end where the spread rule says") {
     const Scene scene = lambertBox();
     const GpuScene gpu = toGpu(scene);
-    const Camera camera = reference::lookAt({0.1f, 0.2f, 0.7f}, {0.0f, 0.1f, -1.0f}, 1.2f);
+    const Camera& camera = kCamera;
     for (const float spread : {0.01f, 10.0f, 100.0f, 300.0f}) {
         const Recorded recorded = record(scene, gpu, camera, spread);
         const auto compared = [&](double factor) {
@@ -194,6 +201,43 @@ TEST_CASE("traced paths ask and end where the spread rule says") {
         CHECK(recorded.queries >= agreement.queries);
         CHECK(recorded.queries <= agreement.queries + agreement.unknown);
         if (spread > 1.0f) CHECK(compared(1.1).wrong > 10); // planted
+    }
+}
+
+TEST_CASE("paths from surfaces end where the spread rule says, as seen from the distance they are given") {
+    const Scene scene = lambertBox();
+    const GpuScene gpu = toGpu(scene);
+    constexpr float kDistance = OracleCache::kSurfaceDistance;
+    for (const float spread : {0.01f, 10.0f, 100.0f}) {
+        const Recorded recorded = record(scene, gpu, kCamera, spread, 4095);
+        // The first vertex plays the primary vertex: as if the path asked there.
+        const auto vertexCount = [&](const TrainingPath& path, double factor) {
+            CacheSettings settings = recorded.settings;
+            settings.endDepth = 0;
+            settings.trainingSpread *= factor;
+            const Values& first = path.vertices.front().inputs;
+            const Vec3 viewer =
+                positionOf(first, settings.box) + double(kDistance) * directionOf(first[3], first[4]);
+            const auto stop = [](size_t) { return false; };
+            const auto vertices = rebuild(path, settings.box, viewer, double(gpu.rayEpsilon));
+            const TrainingPath twin = reference::walk(vertices, settings, false, stop).training;
+            return twin.end.has_value() == path.end.has_value() ? twin.vertices.size() : 0;
+        };
+        size_t compared = 0, wrong = 0, planted = 0;
+        REQUIRE(recorded.paths.size() == 4096);
+        for (const TrainingPath& path : std::span(recorded.paths).subspan(1)) {
+            REQUIRE(!path.vertices.empty());
+            // Directions are recorded to 1e-4; of the longest paths, not all vertices are.
+            const bool isCertain = vertexCount(path, 0.99) == vertexCount(path, 1.01);
+            if (!isCertain || path.vertices.size() >= reference::kMaxRecorded) continue;
+            compared++;
+            wrong += vertexCount(path, 1.0) != path.vertices.size();
+            planted += vertexCount(path, 1.2) != path.vertices.size();
+        }
+        INFO("c = " << spread << ": " << compared << " compared, " << wrong << " wrong");
+        CHECK(wrong == 0);
+        CHECK(compared > 3000);
+        if (spread > 1.0f) CHECK(planted > 10);
     }
 }
 

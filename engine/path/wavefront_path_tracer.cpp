@@ -44,6 +44,18 @@ bool trains(const CachePaths* cache) {
     return cache && cache->rule.tilesX > 0;
 }
 
+bool startsAtSurfaces(const Wave& wave) {
+    return wave.firstPixel >= gpu::kFirstSurfacePath;
+}
+
+// `count` paths, at most `largest` a wave.
+std::vector<Wave> split(uint32_t first, uint32_t count, uint32_t largest) {
+    std::vector<Wave> waves;
+    for (uint32_t done = 0; done < count; done += largest)
+        waves.push_back({first + done, std::min(largest, count - done)});
+    return waves;
+}
+
 // scatter's, where there is a cache.
 struct CachedBounceParams {
     gpu::BounceParams bounce;
@@ -93,6 +105,7 @@ WavefrontPathTracer::WavefrontPathTracer(Device& device, const GpuScene& scene,
     kernels_.addDirectLight =
         Kernel(device, either(kernels::add_direct_light, kernels::add_direct_light_cached));
     kernels_.updateFilm = Kernel(device, kernels::update_film);
+    if (scene.areaTable) kernels_.generateSurfaceRays = Kernel(device, kernels::generate_surface_rays, fit);
 
     const uint64_t wave = waveSize_;
     const uint64_t pixels = uint64_t(options.width) * options.height;
@@ -123,11 +136,11 @@ void WavefrontPathTracer::beginFrame() {
 }
 
 std::vector<Wave> WavefrontPathTracer::waves() const {
-    const uint32_t pixels = options_.width * options_.height;
-    std::vector<Wave> waves;
-    for (uint32_t first = 0; first < pixels; first += waveSize_)
-        waves.push_back({first, std::min(waveSize_, pixels - first)});
-    return waves;
+    return split(0, options_.width * options_.height, waveSize_);
+}
+
+std::vector<Wave> WavefrontPathTracer::surfaceWaves(uint32_t paths) const {
+    return split(gpu::kFirstSurfacePath, paths, waveSize_);
 }
 
 void WavefrontPathTracer::addToFilm(const Wave& wave) {
@@ -177,12 +190,21 @@ void WavefrontPathTracer::traceWave(const Camera& camera, const Wave& wave, uint
     }
 }
 
+void WavefrontPathTracer::traceSurfaceWave(const Wave& wave, uint32_t frame, float distance,
+                                           const CachePaths& cache) {
+    if (!scene_.areaTable) fail(ExitCode::Internal, "the scene was packed without its area table");
+    const uint32_t sampleIndex = frame * options_.samplesPerFrame;
+    const gpu::SurfacePathParams params{wave.firstPixel,  wave.paths, sampleIndex, options_.seed,
+                                        scene_.triangles, distance,   0,           0};
+    Pass pass = graph_.pass(kernels_.generateSurfaceRays);
+    pass.write(rays_[0]).write(hits_).readWrite(counters_);
+    readSurfaces(pass, scene_).read(scene_.areaTable).push(params).dispatch(wave.paths);
+    for (uint32_t depth = 0; depth <= cache.rule.lastDepth; ++depth) bounce(depth, wave, sampleIndex, &cache);
+}
+
 void WavefrontPathTracer::bounce(uint32_t depth, const Wave& wave, uint32_t sampleIndex,
                                  const CachePaths* cache) {
     const uint32_t parity = depth & 1u;
-    const Buffer& rays = rays_[parity];
-    const BufferRange traceArguments(arguments_, gpu::kTraceArguments * 4, 12);
-    const BufferRange itemArguments(arguments_, gpu::kItemArguments * 4, 12);
     const gpu::BounceParams params{depth,
                                    wave.firstPixel,
                                    sampleIndex,
@@ -195,21 +217,47 @@ void WavefrontPathTracer::bounce(uint32_t depth, const Wave& wave, uint32_t samp
                                    parity,
                                    0,
                                    0};
-    const gpu::BeginBounceParams begin{parity, kernels_.intersectClosest.workgroupSize() * gpu::kRaysPerLane,
-                                       kernels_.scatter.workgroupSize(), 0};
+    const bool areTraced = depth > 0 || !startsAtSurfaces(wave);
+    beginBounce(parity, areTraced);
+    if (areTraced) meetSurfaces(params, cache);
+    graph_.cut();
+    // The last ray only adds emission. Training paths go on, and the last of their rays end in the cache.
+    const bool isLast = depth == deepestRay() && !trains(cache);
+    if (isLast || scene_.triangles == 0) return;
+    scatter(params, cache);
+    graph_.pass(kernels_.intersectShadow)
+        .read(scene_.bvh)
+        .read(shadowRays_)
+        .read(counters_)
+        .write(visibility_)
+        .push(gpu::TraceParams{gpu::kShadowRayCounter, scene_.bvhRoot})
+        .dispatchIndirect(BufferRange(arguments_, gpu::kTraceArguments * 4, 12)); // at most one a ray
+    addDirectLight(cache);
+    graph_.cut();
+}
 
+void WavefrontPathTracer::beginBounce(uint32_t parity, bool areTraced) {
+    const gpu::BeginBounceParams begin{parity, kernels_.intersectClosest.workgroupSize() * gpu::kRaysPerLane,
+                                       kernels_.scatter.workgroupSize(), areTraced ? 1u : 0u};
     graph_.pass(kernels_.beginBounce)
         .readWrite(counters_)
         .readWrite(arguments_)
         .push(begin)
         .dispatchGroups(1);
+}
+
+// The rays' nearest hits, and the light that they meet there or beyond the scene.
+void WavefrontPathTracer::meetSurfaces(const gpu::BounceParams& params, const CachePaths* cache) {
+    const uint32_t parity = params.queueParity;
+    const Buffer& rays = rays_[parity];
+    const BufferRange itemArguments(arguments_, gpu::kItemArguments * 4, 12);
     graph_.pass(kernels_.intersectClosest)
         .read(scene_.bvh)
         .read(rays)
         .read(counters_)
         .write(hits_)
         .push(gpu::TraceParams{gpu::kRayCounter + parity, scene_.bvhRoot})
-        .dispatchIndirect(traceArguments);
+        .dispatchIndirect(BufferRange(arguments_, gpu::kTraceArguments * 4, 12));
     if (scene_.needs.environment) {
         Pass pass = graph_.pass(kernels_.handleEscapedRays);
         pass.read(rays).read(hits_).read(counters_).readWrite(radiance_).read(scene_.environment);
@@ -223,20 +271,6 @@ void WavefrontPathTracer::bounce(uint32_t depth, const Wave& wave, uint32_t samp
         if (cache) gatherForTraining(pass, pathStates_, *cache);
         pass.push(params).dispatchIndirect(itemArguments);
     }
-    graph_.cut();
-    // The last ray only adds emission. Training paths go on, and the last of their rays end in the cache.
-    const bool isLast = depth == deepestRay() && !trains(cache);
-    if (isLast || scene_.triangles == 0) return;
-    scatter(params, cache);
-    graph_.pass(kernels_.intersectShadow)
-        .read(scene_.bvh)
-        .read(shadowRays_)
-        .read(counters_)
-        .write(visibility_)
-        .push(gpu::TraceParams{gpu::kShadowRayCounter, scene_.bvhRoot})
-        .dispatchIndirect(traceArguments); // at most one shadow ray a ray
-    addDirectLight(cache);
-    graph_.cut();
 }
 
 void WavefrontPathTracer::scatter(const gpu::BounceParams& params, const CachePaths* cache) {

@@ -21,7 +21,8 @@ struct PathTracerOptions {
     bool cached = false;   // traceWave is given CachePaths
 };
 
-// Consecutive pixels whose paths are in flight together; path i belongs to pixel firstPixel + i.
+// Consecutive pixels whose paths are in flight together; path i belongs to pixel firstPixel + i. From
+// gpu::kFirstSurfacePath on they are no pixels: their paths start at the scene's surfaces.
 struct Wave {
     uint32_t firstPixel = 0;
     uint32_t paths = 0;
@@ -48,6 +49,10 @@ public:
     void traceWave(const Camera& camera, const Wave& wave, uint32_t frame, uint32_t sample,
                    const CachePaths* cache = nullptr);
     void addToFilm(const Wave& wave);
+    // Paths from points uniform over the scene's surfaces (whose area table is packed), as seen from
+    // `distance` away: they only train, with the numbers after those of the tiles' paths.
+    std::vector<Wave> surfaceWaves(uint32_t paths) const;
+    void traceSurfaceWave(const Wave& wave, uint32_t frame, float distance, const CachePaths& cache);
     void endFrame();
     void forgetFilm();                                   // the next frame is the film's first
     const Buffer& radiance() const { return radiance_; } // vec4 per path of the wave
@@ -62,11 +67,13 @@ public:
 
 private:
     struct Kernels {
-        Kernel generateCameraRays, beginBounce, intersectClosest, handleEscapedRays, handleEmissiveHits,
-            recordSurfaces, scatter, intersectShadow, addDirectLight, updateFilm;
+        Kernel generateCameraRays, generateSurfaceRays, beginBounce, intersectClosest, handleEscapedRays,
+            handleEmissiveHits, recordSurfaces, scatter, intersectShadow, addDirectLight, updateFilm;
     };
 
     void bounce(uint32_t depth, const Wave& wave, uint32_t sampleIndex, const CachePaths* cache);
+    void beginBounce(uint32_t parity, bool areTraced);
+    void meetSurfaces(const gpu::BounceParams& params, const CachePaths* cache);
     void scatter(const gpu::BounceParams& params, const CachePaths* cache);
     void addDirectLight(const CachePaths* cache);
     void recordSurfaces(const Camera& camera, const Wave& wave);

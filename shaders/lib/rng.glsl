@@ -24,6 +24,8 @@ uint bsdfBlock(uint depth) { return 2u + 3u * depth; }
 uint lightChoiceBlock(uint depth) { return 3u + 3u * depth; }
 
 const uint kTileBlock = 0xffffffffu; // of (tile, sample) instead: the pixel of a tile that trains
+const uint kSurfacePointBlock = 0xfffffffeu; // of a path that starts at a surface: where,
+const uint kSurfaceViewBlock = 0xfffffffdu;  // and from where it is seen
 
 uvec4 randomBits(uint pixel, uint sampleIndex, uint block, uint seed) {
     return pcg4d(uvec4(pixel, sampleIndex, block, seed));

@@ -19,7 +19,8 @@ void main() {
     arguments[kItemArguments + 1u] = 1u;
     arguments[kItemArguments + 2u] = 1u;
     uint carry;
-    counters[kTracedRays] = uaddCarry(counters[kTracedRays], count + counters[kShadowRayCounter], carry);
+    uint traced = count * params.areTraced + counters[kShadowRayCounter];
+    counters[kTracedRays] = uaddCarry(counters[kTracedRays], traced, carry);
     counters[kTracedRaysHigh] += carry;
     counters[kRayCounter + 1u - params.parity] = 0u;
     counters[kShadowRayCounter] = 0u;

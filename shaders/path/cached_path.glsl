@@ -26,9 +26,11 @@ struct CachedPath {
 // The first row or column of a tile, of `tiles` that share `size` pixels.
 uint tileBegin(uint tile, uint tiles, uint size) { return (tile * size + tiles - 1u) / tiles; }
 
-// The training path that this pixel's path is, + 1: one pixel of each tile has one, another in each frame.
+// The training path that this pixel's path is, + 1: one pixel of each tile has one, another in each frame. Paths from
+// surfaces all train.
 uint trainingPathOf(uint pixel) {
     if (rule.tilesX == 0u) return 0u;
+    if (pixel >= kFirstSurfacePath) return rule.tilesX * rule.tilesY + pixel - kFirstSurfacePath + 1u;
     uvec2 at = uvec2(pixel % rule.width, pixel / rule.width);
     uvec2 tiles = uvec2(rule.tilesX, rule.tilesY);
     uvec2 tile = at * tiles / uvec2(rule.width, rule.height);
@@ -46,7 +48,7 @@ CachedPath beginPath(uint path, uint pixel, float distance, float cosine) {
     c.path = path;
     c.training = trainingPathOf(pixel);
     float choice = unitFloat(randomBits(pixel, params.sampleIndex, kCameraBlock, params.seed).z);
-    c.flags = choice < rule.unbiasedShare ? kPathUnbiased : 0u;
+    c.flags = (choice < rule.unbiasedShare ? kPathUnbiased : 0u) | (pixel >= kFirstSurfacePath ? kPathEnded : 0u);
     c.a0 = distance * distance / (4.0 * kPi * cosine);
     c.spread = 0.0;
     c.weight = vec3(1.0);
@@ -167,8 +169,8 @@ CachedPath arrive(bool alive, uint path, uint pixel, Surface s, vec3 view, float
     c.flags |= c.renders ? 0u : kPathEnded;
 
     if (c.trains) {
-        // The vertex that is asked plays the primary vertex to the suffix.
-        bool inSuffix = (c.flags & (kPathAsked | kPathEnded)) != 0u && !asks;
+        // The vertex that is asked plays the primary vertex to the suffix, as the first of a path from a surface does.
+        bool inSuffix = (c.flags & (kPathAsked | kPathEnded)) != 0u && !asks && params.depth > 0u;
         bool suffixEnds = inSuffix && (c.flags & kPathUnbiased) == 0u && hasSpread(c, rule.trainingSpread);
         if (inBox && (suffixEnds || params.depth >= rule.lastDepth)) {
             endInCache(c, inputs);

@@ -44,7 +44,7 @@ struct CacheRule {
     vec4 boxHigh; // xyz; w = c of the area spread a(x1 ... xn) > c a0; infinite = never, negative = at the first vertex
     uint endDepth; // number of the vertex at which paths end whatever their spread (0 = the first); kNoDepth = by spread alone
     uint lastDepth;   // at which training paths end in the cache, whatever their spread
-    uint tilesX;      // one training path a tile and frame; 0 = none
+    uint tilesX;      // one training path a tile and frame; 0 = none. Paths from surfaces have the numbers after these
     uint tilesY;
     uint width; // of the picture
     uint height;

@@ -26,6 +26,21 @@ struct CameraParams {
     uint pad;
 };
 
+// Paths that no pixel sees: they start at points of the scene's surfaces. Their numbers take the place of pixels, beyond
+// those of any picture, so that their random numbers are their own.
+SHARED_CONST uint kFirstSurfacePath = 0x80000000u;
+
+struct SurfacePathParams {
+    uint firstPath; // of the wave, kFirstSurfacePath + its number
+    uint pathCount;
+    uint sampleIndex;
+    uint seed;
+    uint triangles; // of the scene
+    float distance; // from which the points are seen
+    uint pad0;
+    uint pad1;
+};
+
 // One step of the loop over bounces; also what the handle_* kernels and scatter need to know of the scene.
 struct BounceParams {
     uint depth; // number of the ray being handled; 0 = camera ray
@@ -47,7 +62,7 @@ struct BeginBounceParams {
     uint parity;
     uint raysPerTraceGroup;
     uint itemsPerGroup;
-    uint pad;
+    uint areTraced; // 0 = what the rays hit is known
 };
 SHARED_CONST uint kTraceArguments = 0u; // offsets in uints
 SHARED_CONST uint kItemArguments = 4u;

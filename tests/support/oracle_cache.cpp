@@ -24,10 +24,12 @@ PathTracerOptions asked(PathTracerOptions options) {
 } // namespace
 
 OracleCache::OracleCache(Device& device, const PathTracerOptions& options, float radiance, uint32_t tilesX,
-                         uint32_t tilesY)
+                         uint32_t tilesY, uint32_t surfacePaths)
     : device_(device)
     , options_(asked(options))
     , radiance_(radiance)
+    , surfacePaths_(surfacePaths)
+    , pathRows_(padded(tilesX * tilesY + surfacePaths))
     , resolveQueries_(device, kernels::resolve_queries)
     , propagateTraining_(device, kernels::propagate_training)
     , queries_(device, "queries", padded(options_.waveSize) * kInputBytes)
@@ -35,12 +37,11 @@ OracleCache::OracleCache(Device& device, const PathTracerOptions& options, float
     , predictions_(device, "predictions", padded(options_.waveSize) * 16)
     , counters_(device, "counters", gpu::kCacheCounters * 4)
     , state_(makeBuffer(device, "state", std::vector{gpu::CacheState{1.0f, 0, 0, 0, 0, 0, 0, 0}}))
-    , trainingPaths_(device, "training paths", padded(tilesX * tilesY) * gpu::kTrainingPathVectors * 16)
+    , trainingPaths_(device, "training paths", pathRows_ * gpu::kTrainingPathVectors * 16)
     , trainingVertices_(device, "training vertices",
-                        padded(tilesX * tilesY) * gpu::kMaxTrainingVertices * gpu::kTrainingVertexVectors *
-                            16)
-    , trainingQueries_(device, "training queries", padded(tilesX * tilesY) * kInputBytes)
-    , pathSums_(device, "path sums", padded(tilesX * tilesY) * 16) {
+                        pathRows_ * gpu::kMaxTrainingVertices * gpu::kTrainingVertexVectors * 16)
+    , trainingQueries_(device, "training queries", pathRows_ * kInputBytes)
+    , pathSums_(device, "path sums", pathRows_ * 16) {
     constexpr float kNever = std::numeric_limits<float>::infinity();
     rule_.boxLow = glm::vec4(-1e6f, -1e6f, -1e6f, 1.0f);
     rule_.boxHigh = glm::vec4(1e6f, 1e6f, 1e6f, kNever);
@@ -67,6 +68,8 @@ FilmImage OracleCache::render(const GpuScene& scene, const Camera& camera, uint3
             answer(tracer);
             tracer.addToFilm(wave);
         }
+        for (const Wave& wave : tracer.surfaceWaves(surfacePaths_))
+            tracer.traceSurfaceWave(wave, frame, kSurfaceDistance, paths);
         propagate(tracer.graph());
         tracer.graph().execute();
         tracer.endFrame();
@@ -97,16 +100,15 @@ void OracleCache::propagate(FrameGraph& graph) {
         .read(predictions_)
         .read(state_)
         .write(pathSums_)
-        .push(gpu::RecordsParams{rule_.tilesX * rule_.tilesY, 0, 0, 0.0f})
-        .dispatch(rule_.tilesX * rule_.tilesY);
+        .push(gpu::RecordsParams{pathCount(), 0, 0, 0.0f})
+        .dispatch(pathCount());
 }
 
 std::vector<reference::TrainingPath> OracleCache::trainingPaths() const {
-    const size_t paths = size_t(rule_.tilesX) * rule_.tilesY;
     const auto all = [&](const Buffer& buffer) {
         return download<glm::uvec4>(device_, buffer, buffer.bytes() / sizeof(glm::uvec4));
     };
-    return unpackPaths({all(trainingPaths_), all(trainingVertices_), all(trainingQueries_)}, paths);
+    return unpackPaths({all(trainingPaths_), all(trainingVertices_), all(trainingQueries_)}, pathCount());
 }
 
 std::vector<glm::vec3> OracleCache::targets() const {

@@ -10,9 +10,11 @@ namespace irradia::test {
 
 class OracleCache {
 public:
-    // For pictures of `options`, all of whose pixels are one wave; with one training path a tile.
+    // For pictures of `options`, all of whose pixels are one wave; with one training path a tile, and after
+    // these `surfacePaths` from the surfaces of the scene, seen from kSurfaceDistance.
     OracleCache(Device& device, const PathTracerOptions& options, float radiance, uint32_t tilesX = 0,
-                uint32_t tilesY = 0);
+                uint32_t tilesY = 0, uint32_t surfacePaths = 0);
+    static constexpr float kSurfaceDistance = 1.5f;
 
     gpu::CacheRule& rule() { return rule_; } // never ends paths at first
     FilmImage render(const GpuScene& scene, const Camera& camera, uint32_t frames);
@@ -24,12 +26,15 @@ public:
     std::vector<glm::vec3> queryWeights() const;
 
 private:
+    uint32_t pathCount() const { return rule_.tilesX * rule_.tilesY + surfacePaths_; }
     void answer(WavefrontPathTracer& tracer);
     void propagate(FrameGraph& graph);
 
     Device& device_;
     PathTracerOptions options_;
     float radiance_;
+    uint32_t surfacePaths_;
+    uint64_t pathRows_;
     gpu::CacheRule rule_{};
     Kernel resolveQueries_, propagateTraining_;
     Buffer queries_, queryWeights_, predictions_, counters_, state_;

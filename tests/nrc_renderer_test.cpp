@@ -1,8 +1,10 @@
 // Rendering with the cache as a whole: equal to path tracing where paths never end in it, unbiased as a
 // control variate, and the same bits each time.
+#include "engine/scene/area_table.h"
 #include "engine/scene/load_scene.h"
 #include "nrc/renderer/nrc_renderer.h"
 #include "tests/reference/z_test.h"
+#include "tests/support/expect_error.h"
 #include "tests/support/gpu_render.h"
 #include "tests/support/validated_device.h"
 #include <catch2/catch_test_macros.hpp>
@@ -22,11 +24,17 @@ struct Loaded {
         : scene(loadScene(IRRADIA_BIN_DIR "/../scenes/" + name + ".glb"))
         , camera(scene.cameras.at(0))
         , bounds(sceneBounds(scene))
-        , gpu(uploadScene(device(), packScene(scene), buildBvh(scene), bounds)) {}
+        , gpu(uploadScene(device(), packScene(scene), buildBvh(scene), bounds))
+        , withAreaTable(uploadScene(device(), recordsWithTable(), buildBvh(scene), bounds)) {}
+    SceneRecords recordsWithTable() const {
+        SceneRecords records = packScene(scene);
+        packAreaTable(records);
+        return records;
+    }
     Scene scene;
     Camera camera;
     Bounds bounds;
-    GpuScene gpu;
+    GpuScene gpu, withAreaTable;
 };
 
 const Loaded& cornell() {
@@ -89,22 +97,80 @@ TEST_CASE("as a control variate the cache leaves no bias, whatever its weights")
     CHECK_FALSE(reference::zTest(toEstimate(biased.tracer().readFilm()), expected).accepted());
 }
 
+namespace {
+
+struct Trained {
+    std::vector<glm::vec3> picture;
+    std::vector<float> weights;
+    uint32_t records = 0; // of the last frame
+
+    bool operator==(const Trained&) const = default;
+};
+
+// 16 frames that train, and one that does not.
+Trained train(const GpuScene& scene, float uniformShare) {
+    NrcOptions training = options(48);
+    training.config.uniformShare = uniformShare;
+    NrcRenderer renderer(device(), scene, cornell().bounds, training);
+    for (uint32_t i = 0; i < 16; ++i) renderer.renderFrame(cornell().camera, i);
+    Trained trained{renderer.tracer().readFilm().mean, renderer.cache().trainer().parameters(Weights::Raw),
+                    renderer.counts().records};
+    renderer.setLearning(false);
+    renderer.renderFrame(cornell().camera, 16);
+    const bool isAsItWas = renderer.cache().trainer().parameters(Weights::Raw) == trained.weights;
+    CHECK(isAsItWas);
+    return trained;
+}
+
+} // namespace
+
 TEST_CASE("frames that train have the same bits each time, and those that do not leave the cache as it is") {
-    std::vector<FilmImage> films;
-    std::vector<std::vector<float>> weights;
-    for (int run = 0; run < 2; ++run) {
-        NrcRenderer renderer(device(), cornell().gpu, cornell().bounds, options(48));
-        for (uint32_t i = 0; i < 16; ++i) renderer.renderFrame(cornell().camera, i);
-        films.push_back(renderer.tracer().readFilm());
-        weights.push_back(renderer.cache().trainer().parameters(Weights::Raw));
-        renderer.setLearning(false);
-        renderer.renderFrame(cornell().camera, 16);
-        const bool isAsItWas = renderer.cache().trainer().parameters(Weights::Raw) == weights.back();
-        CHECK(isAsItWas);
+    const Trained without = train(cornell().gpu, 0.0f), with = train(cornell().withAreaTable, 0.05f);
+    const bool isSame = train(cornell().withAreaTable, 0.0f) == without, // the table alone changes nothing
+        isSameWithShare = train(cornell().withAreaTable, 0.05f) == with;
+    CHECK(isSame);
+    CHECK(isSameWithShare);
+    CHECK(with.weights != without.weights);
+}
+
+TEST_CASE("a share of uniform records changes neither the number of records nor what is seen") {
+    NrcOptions uniform = options(48);
+    const std::vector<glm::vec3> plain = renderPlain(uniform, 4).mean;
+    for (const float share : {0.05f, 1.0f}) {
+        uniform.config = options(48).config;
+        uniform.config.uniformShare = share;
+        NrcRenderer usual(device(), cornell().withAreaTable, cornell().bounds, uniform);
+        for (uint32_t i = 0; i < 6; ++i) usual.renderFrame(cornell().camera, i);
+        INFO("share " << share << ": " << usual.counts().records << " records");
+        CHECK(usual.counts().records > 0.8 * uniform.config.minRecords);
+        CHECK(usual.counts().records < 1.4 * uniform.config.minRecords);
+        CHECK(usual.counts().skippedRecords == 0);
+
+        // Where no path ends in the cache.
+        uniform.config.spread = uniform.config.trainingSpread = std::numeric_limits<float>::infinity();
+        NrcRenderer never(device(), cornell().withAreaTable, cornell().bounds, uniform);
+        for (uint32_t i = 0; i < 4; ++i) never.renderFrame(cornell().camera, i);
+        const bool isSame = never.tracer().readFilm().mean == plain;
+        CHECK(isSame);
     }
-    const bool isSameFilm = films[0].mean == films[1].mean, areSameWeights = weights[0] == weights[1];
-    CHECK(isSameFilm);
-    CHECK(areSameWeights);
+}
+
+TEST_CASE("the share of uniform records is configured as JSON, and needs an area table") {
+    CHECK(parseNrcConfig("{}", "x").uniformShare == 0.0f);
+    CHECK(parseNrcConfig(R"({"training": {"uniform_share": 0.05}})", "x").uniformShare == 0.05f);
+    for (const char* value : {"-0.01", "1.5", "\"some\""})
+        expectError(ExitCode::BadData, "training.uniform_share", [&] {
+            parseNrcConfig(std::string(R"({"training": {"uniform_share": )") + value + "}}", "x");
+        });
+    NrcOptions uniform = options(16);
+    uniform.config.uniformShare = 0.05f;
+    NrcRenderer renderer(device(), cornell().gpu, cornell().bounds, uniform);
+    expectError(ExitCode::Internal, "area table", [&] { renderer.renderFrame(cornell().camera, 0); });
+    // Without surfaces there is nothing to sample, and no table.
+    const GpuScene nothing = uploadScene(device(), packScene(Scene{}), buildBvh(Scene{}), Bounds{});
+    NrcRenderer empty(device(), nothing, Bounds{}, uniform);
+    empty.renderFrame(cornell().camera, 0);
+    CHECK(empty.counts().records == 0);
 }
 
 TEST_CASE("the device has nothing to say against it") {

@@ -41,6 +41,7 @@ void readTraining(const Json& json, const std::string& file, NrcConfig& config) 
     config.minRecords = fields.integer("min_records", config.minRecords, 1, 1u << 20);
     config.steps = fields.integer("steps", config.steps, 1, 64);
     config.selfTraining = fields.choice("self_training", config.selfTraining, kWeightsNames);
+    config.uniformShare = static_cast<float>(fields.number("uniform_share", config.uniformShare, {0, 1}));
     fields.finish();
 }
 

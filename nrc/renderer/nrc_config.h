@@ -1,7 +1,8 @@
 // The knobs of rendering with a cache, as JSON:
 //
 //     {"paths": {"spread": 0.01, "training_spread": 0.01, "unbiased_share": 0.0625, "suffix_bounces": 8},
-//      "training": {"records": 65536, "min_records": 4096, "steps": 4, "self_training": "Ema"},
+//      "training": {"records": 65536, "min_records": 4096, "steps": 4, "self_training": "Ema",
+//      "uniform_share": 0},
 //      "adaptation": "off", or {"threshold": 0.3, "full": 0.7, "most_steps": 16, "shortest_ema": 0.9,
 //      "calming": 0.85},
 //      "factorise": "on", "shown": "Ema", "model": {...}}
@@ -34,6 +35,10 @@ struct NrcConfig {
     uint32_t recordsAt1080p = 65536; // wanted per frame of 1920 x 1080 pixels; scaled with the picture
     uint32_t minRecords = 4096;
     uint32_t steps = 4; // of optimisation a frame, when nothing is urgent
+    // Share of the records that comes from points uniform over all surfaces instead of from the camera's
+    // paths, so that what is out of sight is not forgotten: 0 = none, 0.01 to 0.05 is enough. The scene needs
+    // its area table.
+    float uniformShare = 0.0f;
     AdaptationConfig adaptation;
     bool factorise = true;               // predictions are multiplied by the reflectance
     Weights selfTraining = Weights::Ema; // whose predictions end training paths

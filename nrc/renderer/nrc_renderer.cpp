@@ -22,12 +22,28 @@ uint32_t recordsPerFrame(const NrcOptions& options) {
     return std::max(scaled, options.config.minRecords);
 }
 
+// Most of them have one record: the cache is near behind the first vertex.
+uint32_t surfacePathsPerFrame(const NrcOptions& options) {
+    return static_cast<uint32_t>(std::lround(double(options.config.uniformShare) * recordsPerFrame(options)));
+}
+
+// Of the tiles, at most: each has a record, or nearly.
+uint32_t cameraPathsPerFrame(const NrcOptions& options) {
+    return std::min(recordsPerFrame(options), pixelCount(options));
+}
+
+// How far away those are who see the surfaces: the mean chord of a convex body is 4 V / S (Cauchy).
+float meanChord(const Bounds& box) {
+    const glm::vec3 e = box.upper - box.lower;
+    return 2.0f * e.x * e.y * e.z / std::max(e.x * e.y + e.y * e.z + e.z * e.x, 1e-30f);
+}
+
 CacheOptions cacheOptions(const NrcOptions& options, uint32_t largestWave) {
     CacheOptions cache;
     cache.model = options.config.model;
     cache.queries = largestWave;
     cache.records = recordsPerFrame(options);
-    cache.trainingPaths = std::min(cache.records, pixelCount(options)); // each has a record, or nearly
+    cache.trainingPaths = cameraPathsPerFrame(options) + surfacePathsPerFrame(options);
     cache.steps = options.config.steps;
     cache.factorise = options.config.factorise;
     cache.selfTraining = options.config.selfTraining;
@@ -44,7 +60,8 @@ NrcRenderer::NrcRenderer(Device& device, const GpuScene& scene, const Bounds& bo
     , tracer_(device, scene, cachedPaths(options.paths), profiler)
     , cache_(device, cacheOptions(options, tracer_.largestWave()))
     , adaptation_(options.config.adaptation, options.config.steps, options.config.model.optimizer.emaDecay)
-    , tiles_(wantedTiles()) {}
+    , tiles_(wantedTiles())
+    , surfacePaths_(scene.triangles > 0 ? surfacePathsPerFrame(options) : 0) {}
 
 std::vector<Device::PlannedBuffer> NrcRenderer::plannedBuffers(const Device& device,
                                                                const NrcOptions& options) {
@@ -72,7 +89,9 @@ void NrcRenderer::renderFrame(const Camera& camera, uint32_t index) {
     }
     if (learns_) {
         graph.section("train");
-        cache_.learn(graph, tiles_.count(), adaptation_.effort());
+        for (const Wave& wave : tracer_.surfaceWaves(surfacePaths_))
+            tracer_.traceSurfaceWave(wave, index, meanChord(bounds_), cachePaths(true));
+        cache_.learn(graph, trainingPaths(), adaptation_.effort());
         graph.section("");
     }
     graph.execute();
@@ -80,7 +99,8 @@ void NrcRenderer::renderFrame(const Camera& camera, uint32_t index) {
     counts_ = cache_.counts();
     if (learns_ && counts_.records > 0) {
         adaptation_.observe(counts_.training.meanPrediction, counts_.training.meanTarget);
-        recordsPerPath_ = double(counts_.records + counts_.skippedRecords) / tiles_.count();
+        const double records = double(counts_.records) + counts_.skippedRecords - surfacePaths_;
+        recordsPerPath_ = std::max(records, 1.0) / tiles_.count();
     }
     tiles_ = wantedTiles();
 }
@@ -89,12 +109,13 @@ void NrcRenderer::forgetFilm() {
     tracer_.forgetFilm();
 }
 
-// As many tiles, as square as the picture allows, as give the wanted number of records if paths are as long
-// as in the frame before.
+// As many tiles, as square as the picture allows, as give the wanted number of records, less those from
+// surfaces, if paths are as long as in the frame before.
 NrcRenderer::Tiles NrcRenderer::wantedTiles() const {
     const double width = options_.paths.width, height = options_.paths.height;
-    const double most = cache_.options().trainingPaths;
-    const double paths = std::clamp(cache_.options().records / recordsPerPath_, 1.0, most);
+    const double most = cameraPathsPerFrame(options_);
+    const double records = recordsPerFrame(options_) - surfacePathsPerFrame(options_);
+    const double paths = std::clamp(records / recordsPerPath_, 1.0, most);
     const double x = std::clamp(std::floor(std::sqrt(paths * width / height)), 1.0, std::min(width, most));
     const double y = std::clamp(std::floor(paths / x), 1.0, std::min(height, std::floor(most / x)));
     return {static_cast<uint32_t>(x), static_cast<uint32_t>(y)};

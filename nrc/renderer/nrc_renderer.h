@@ -41,6 +41,7 @@ private:
 
     CachePaths cachePaths(bool train) const;
     Tiles wantedTiles() const;
+    uint32_t trainingPaths() const { return tiles_.count() + surfacePaths_; } // of this frame
 
     NrcOptions options_;
     Bounds bounds_;
@@ -48,8 +49,9 @@ private:
     RadianceCache cache_;
     CacheCounts counts_;
     Adaptation adaptation_;
-    double recordsPerPath_ = 2.0; // of the last frame
+    double recordsPerPath_ = 2.0; // of the last frame's paths from the camera
     Tiles tiles_;                 // of this frame: one training path each
+    uint32_t surfacePaths_;       // of a frame: training paths that start at the scene's surfaces
     bool learns_ = true;
 };
 

@@ -1,6 +1,7 @@
 #include "render_session.h"
 
 #include "engine/error.h"
+#include "engine/scene/area_table.h"
 #include "samples/support/program.h"
 #include <chrono>
 #include <cstdio>
@@ -130,7 +131,9 @@ RenderSession::RenderSession(const RenderRequest& request)
     if (!environment.empty()) scene_.environment = loadEnvironment(environment);
 
     if (!request.changes.empty()) changes_ = ScriptedChanges(request.changes, scene_);
-    const SceneRecords records = packScene(scene_, changes_.states(scene_));
+    const NrcOptions options = rendererOptions();
+    SceneRecords records = packScene(scene_, changes_.states(scene_));
+    if (options.config.uniformShare > 0.0f) packAreaTable(records);
     reportScene(scene_, records.warnings);
     const Bvh bvh = buildBvh(scene_);
     device_ = std::make_unique<Device>(request_.device);
@@ -138,10 +141,10 @@ RenderSession::RenderSession(const RenderRequest& request)
                device_->description().driver, device_->subgroupSize(),
                device_->texelRecords() ? "texel" : "storage");
 
-    createRenderer(records, bvh);
+    createRenderer(options, records, bvh);
 }
 
-void RenderSession::createRenderer(const SceneRecords& records, const Bvh& bvh) {
+NrcOptions RenderSession::rendererOptions() const {
     NrcOptions options;
     options.paths.width = size_.x;
     options.paths.height = size_.y;
@@ -151,12 +154,16 @@ void RenderSession::createRenderer(const SceneRecords& records, const Bvh& bvh) 
     options.paths.surfaces = request_.surfaces;
     options.seed = request_.seed;
     const bool hasCache = request_.method != "pt";
+    if (hasCache) options.config = nrcConfig(request_);
     if (!hasCache && !request_.network.empty())
         fail(ExitCode::Usage, "--network is for the methods with a cache; --method pt has none");
     if (!hasCache && !request_.view.empty())
         fail(ExitCode::Usage, "--view is for the methods with a cache; --method pt has none");
-    if (hasCache) options.config = nrcConfig(request_);
+    return options;
+}
 
+void RenderSession::createRenderer(const NrcOptions& options, const SceneRecords& records, const Bvh& bvh) {
+    const bool hasCache = request_.method != "pt";
     auto plan = plannedBuffers(records, bvh);
     for (auto& buffer : hasCache ? NrcRenderer::plannedBuffers(*device_, options)
                                  : WavefrontPathTracer::plannedBuffers(*device_, options.paths))

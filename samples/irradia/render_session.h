@@ -56,7 +56,8 @@ public:
 private:
     void applyChanges();
     void forgetFilm();
-    void createRenderer(const SceneRecords& records, const Bvh& bvh);
+    NrcOptions rendererOptions() const;
+    void createRenderer(const NrcOptions& options, const SceneRecords& records, const Bvh& bvh);
 
     RenderRequest request_;
     glm::uvec2 size_;

@@ -136,7 +136,7 @@ void Encoding::encode(FrameGraph& graph, const RowCount& rows, BufferRange input
                 .read({*features.buffer, features.offset, featureCount() * 4})
                 .read(slice.grid->entries);
         pass.write(encoded)
-            .push(gpu::RowsParams{rows.index, rows.capacity, rows.first})
+            .push(gpu::RowsParams{rows.index, rows.capacity, rows.first, 0, {}})
             .dispatch(uint64_t(rows.capacity) * (slice.grid ? slice.grid->encodeGroups : 1));
     }
 }
@@ -152,7 +152,7 @@ void Encoding::accumulateGradient(FrameGraph& graph, const RowCount& rows, Buffe
             .read(slice.grid->entries)
             .read(encodedGradient)
             .readWrite({*sums.buffer, sums.offset, sumBytes()})
-            .push(gpu::RowsParams{rows.index, rows.capacity, rows.first})
+            .push(gpu::RowsParams{rows.index, rows.capacity, rows.first, 0, {}})
             .dispatch(uint64_t(rows.capacity) * slice.grid->levels);
     }
 }

@@ -3,6 +3,7 @@
 #include "engine/error.h"
 #include "nrc/network_kernels.h"
 #include "nrc/random.h"
+#include "nrc/row_padding.h"
 #include <algorithm>
 #include <cmath>
 
@@ -21,6 +22,18 @@ NetworkConfig resolved(const Device& device, NetworkConfig config) {
     if (config.form == NetworkForm::Auto)
         config.form = device.isCpu() ? NetworkForm::Subgroup : NetworkForm::Workgroup;
     return config;
+}
+
+uint64_t addressOf(const BufferRange& range) {
+    return range.buffer->address() + range.offset;
+}
+
+gpu::RowsParams rowsParams(const RowCount& rows, uint64_t kept = 0) {
+    return {rows.index, rows.capacity, rows.first, 0, {uint32_t(kept), uint32_t(kept >> 32)}};
+}
+
+uint32_t chunkCount(uint32_t rows, uint32_t ofChunk) {
+    return (rows + ofChunk - 1) / ofChunk;
 }
 
 void initialiseMatrix(std::span<float> matrix, uint32_t fanIn, uint32_t fanOut, RandomStream& random) {
@@ -76,8 +89,11 @@ uint64_t Network::activationBytes(uint32_t capacity) const {
 uint64_t Network::layerGradientBytes(uint32_t capacity) const {
     return uint64_t(capacity) * state_->shape.gradientQuads() * state_->shape.quadBytes;
 }
-uint64_t Network::partialBytes() const {
-    return gpu::kGradientChunks * weightCount() * sizeof(float);
+uint32_t Network::chunkRows(uint32_t batchCapacity) {
+    return paddedRows((batchCapacity + gpu::kGradientChunks - 1) / gpu::kGradientChunks);
+}
+uint64_t Network::partialBytes(uint32_t batchCapacity) const {
+    return chunkCount(batchCapacity, chunkRows(batchCapacity)) * weightCount() * sizeof(float);
 }
 
 void Network::initialise(std::span<float> weights, uint64_t seed) const {
@@ -111,7 +127,7 @@ void Network::infer(FrameGraph& graph, const RowCount& rows, BufferRange encoded
         .read(encoded)
         .read(packed)
         .write(results)
-        .push(gpu::RowsParams{rows.index, rows.capacity, rows.first})
+        .push(rowsParams(rows))
         .dispatchGroups(state_->kernels.inferGroups(rows.capacity));
 }
 
@@ -123,7 +139,7 @@ void Network::forward(FrameGraph& graph, const RowCount& rows, BufferRange encod
         .read(packed)
         .write(results)
         .write(activations)
-        .push(gpu::RowsParams{rows.index, rows.capacity, rows.first})
+        .push(rowsParams(rows, state_->kernels.keepsByAddress ? addressOf(activations) : 0))
         .dispatchGroups(state_->kernels.forwardGroups(rows.capacity));
 }
 
@@ -139,7 +155,7 @@ void Network::backward(FrameGraph& graph, const RowCount& rows, BufferRange pack
         .read(resultGradient)
         .write(layerGradients)
         .write(inputGradient ? *inputGradient : BufferRange(state_->none))
-        .push(gpu::RowsParams{rows.index, rows.capacity, rows.first})
+        .push(rowsParams(rows, state_->kernels.keepsByAddress ? addressOf(layerGradients) : 0))
         .dispatchGroups(state_->kernels.forwardGroups(rows.capacity));
 }
 
@@ -147,29 +163,31 @@ void Network::weightGradient(FrameGraph& graph, const RowCount& rows, uint32_t b
                              BufferRange encoded, BufferRange activations, BufferRange layerGradients,
                              BufferRange partials) const {
     const NetworkKernels& kernels = state_->kernels;
-    const uint32_t chunkRows = batchCapacity / gpu::kGradientChunks; // whole tiles, as capacities are padded
-    if (rows.first % chunkRows != 0 || rows.capacity % chunkRows != 0)
-        fail(ExitCode::Internal, "network: rows {} to {} are not whole chunks of {}", rows.first,
-             rows.first + rows.capacity, chunkRows);
-    const uint32_t chunks = rows.capacity / chunkRows;
+    const uint32_t ofChunk = chunkRows(batchCapacity);
+    const uint32_t end = rows.first + rows.capacity;
+    if (rows.first % ofChunk != 0 || (end % ofChunk != 0 && end != batchCapacity))
+        fail(ExitCode::Internal, "network: rows {} to {} are not whole chunks of {}", rows.first, end,
+             ofChunk);
+    const uint32_t chunks = chunkCount(rows.capacity, ofChunk);
     graph.pass(kernels.weightGradient, "weight_gradient")
         .read(rows.counters)
         .read(encoded)
         .read(activations)
         .read(layerGradients)
         .write(partials)
-        .push(gpu::WeightGradientParams{rows.index, rows.first, rows.first / chunkRows, chunks, chunkRows,
+        .push(gpu::WeightGradientParams{rows.index, rows.first, rows.first / ofChunk, chunks, ofChunk,
                                         kernels.weightBlocks, weightQuads()})
         .dispatchGroups(kernels.weightGradientGroups(chunks));
 }
 
-void Network::sumGradients(FrameGraph& graph, BufferRange partials, BufferRange gradients, BufferRange scale,
-                           uint32_t scaleWord) const {
+void Network::sumGradients(FrameGraph& graph, uint32_t batchCapacity, BufferRange partials,
+                           BufferRange gradients, BufferRange scale, uint32_t scaleWord) const {
     graph.pass(state_->kernels.sumGradients, "sum_gradients")
         .read(partials)
         .read(scale)
         .write(gradients)
-        .push(gpu::SumGradientsParams{weightQuads(), scaleWord})
+        .push(gpu::SumGradientsParams{chunkCount(batchCapacity, chunkRows(batchCapacity)), weightQuads(),
+                                      scaleWord})
         .dispatch(weightQuads());
 }
 

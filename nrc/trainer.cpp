@@ -30,14 +30,18 @@ Loss makeLoss(Device& device, const ModelConfig& config, uint32_t outputs) {
     return {device, config.loss, outputs, static_cast<float>(config.optimizer.lossScale), kGradientLimitHalf};
 }
 
-// A CPU learns from a batch in parts of at most so many rows: what their passes hand on stays in its caches,
-// which makes them twice as fast. A GPU takes it as a whole.
+// A CPU learns from a batch in parts of so many rows: what their passes hand on stays in its caches, which
+// makes them twice as fast. A GPU takes it as a whole.
 constexpr uint32_t kCpuPartRows = 2048;
 
-uint32_t partsOf(const Device& device, uint32_t batchRows) {
-    uint32_t parts = 1;
-    while (device.isCpu() && parts < gpu::kGradientChunks && batchRows > parts * kCpuPartRows) parts *= 2;
-    return parts;
+// Whole chunks of the weights' gradient.
+uint32_t rowsOfPart(const Device& device, uint32_t batchRows) {
+    const uint32_t chunk = Network::chunkRows(batchRows);
+    return device.isCpu() ? std::max(kCpuPartRows / chunk, 1u) * chunk : paddedRows(batchRows);
+}
+
+uint32_t wholeParts(uint32_t batchRows, uint32_t partRows) {
+    return (std::max(batchRows, 1u) + partRows - 1) / partRows * partRows;
 }
 
 // What the passes of one batch hand on; reused from batch to batch, and what belongs to a part from part to
@@ -57,7 +61,7 @@ struct BatchBuffers {
         , encodedGradient(device, "gradient by encoded inputs",
                           encoding.featureCount() > 0 ? uint64_t(rows) * encoding.width() / 4 * quadBytes
                                                       : 16)
-        , partials(device, "partial weight gradients", network.partialBytes())
+        , partials(device, "partial weight gradients", network.partialBytes(rows))
         , featureSums(device, "feature gradient sums", std::max<uint64_t>(encoding.featureCount(), 4) * 8) {}
 
     Buffer inputs, targets, usable, encoded, activations, results, resultGradient, rowSums, layerGradients,
@@ -76,8 +80,8 @@ struct Trainer::State {
         , optimizer(d, c.optimizer)
         , weights(d, "weights", network.weightCount(), c.optimizer.learningRate, c.optimizer.l2, false)
         , features(d, "features", encoding.featureCount(), c.optimizer.gridLearningRate, 0.0, true)
-        , partRows(paddedRows((o.batchRows + partsOf(d, o.batchRows) - 1) / partsOf(d, o.batchRows)))
-        , batchRows(partRows * partsOf(d, o.batchRows))
+        , partRows(rowsOfPart(d, o.batchRows))
+        , batchRows(wholeParts(o.batchRows, partRows))
         , inferRows(paddedRows(o.inferRows))
         , quadBytes(c.network.precision == Precision::Half ? 8 : 16)
         , batch(d, encoding, network, batchRows, partRows, quadBytes)
@@ -190,7 +194,7 @@ void Trainer::State::learn(FrameGraph& graph, uint32_t number, std::optional<dou
     encoding.encode(graph, rows, batch.inputs, features.values, batch.encoded);
     for (uint32_t first = 0; first < batchRows; first += partRows) learnPart(graph, first);
     loss.endBatch(graph, state, batch.rowSums, number);
-    network.sumGradients(graph, batch.partials, weights.gradients, state, gpu::kGradientScaleWord);
+    network.sumGradients(graph, batchRows, batch.partials, weights.gradients, state, gpu::kGradientScaleWord);
     if (features.count > 0) {
         encoding.accumulateGradient(graph, rows, batch.inputs, batch.encodedGradient, batch.featureSums);
         encoding.takeGradient(graph, batch.featureSums, features.gradients, state, gpu::kGradientScaleWord);

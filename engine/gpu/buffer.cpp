@@ -31,6 +31,7 @@ Buffer::Buffer(Device& device, std::string name, uint64_t bytes, Memory memory)
         VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
         info.size = (bytes + 15) / 16 * 16; // a whole number of records, so that the last one can be viewed
         info.usage = kUsage;
+        if (device.features().bufferDeviceAddress) info.usage |= VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
         info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
         check(vkCreateBuffer(device.handle(), &info, nullptr, &buffer_), "buffer " + name_);
         memory_ = device.allocate(buffer_, memory == Memory::Host, name_, allocated_);
@@ -83,6 +84,12 @@ Buffer& Buffer::operator=(Buffer&& other) noexcept {
 std::span<std::byte> Buffer::mapped() const {
     if (!mapped_) fail(ExitCode::Internal, "buffer {}: is not mapped", name_);
     return {mapped_, bytes_};
+}
+
+uint64_t Buffer::address() const {
+    VkBufferDeviceAddressInfo info{VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO};
+    info.buffer = buffer_;
+    return vkGetBufferDeviceAddress(device_->handle(), &info);
 }
 
 VkBufferView Buffer::texelView(VkFormat format, uint64_t offset, uint64_t range) const {

@@ -34,6 +34,9 @@ public:
     bool isMapped() const { return mapped_ != nullptr; } // Memory::Host
     std::span<std::byte> mapped() const;                 // Memory::Host only
 
+    // Of its first byte, for kernels that take addresses. The device must have bufferDeviceAddress.
+    uint64_t address() const;
+
     // A view of [offset, offset + range) as texels of `format`; made once, owned by the buffer.
     VkBufferView texelView(VkFormat format, uint64_t offset, uint64_t range) const;
 

@@ -81,6 +81,9 @@ VkDeviceMemory Device::allocate(VkBuffer buffer, bool hostVisible, const std::st
         VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
     constexpr VkMemoryPropertyFlags kLocal = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
     VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
+    VkMemoryAllocateFlagsInfo flags{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO};
+    flags.flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT;
+    if (features().bufferDeviceAddress) info.pNext = &flags;
     info.allocationSize = needs.size;
     info.memoryTypeIndex =
         findMemoryType(state_->memory, needs.memoryTypeBits, hostVisible ? kMapped : 0,

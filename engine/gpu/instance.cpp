@@ -1,7 +1,7 @@
 #include "engine/gpu/instance.h"
 #include "engine/error.h"
 #include "engine/gpu/device.h"
-#include "engine/gpu/shader_cache.h"
+#include "engine/gpu/lavapipe.h"
 #include <algorithm>
 #include <array>
 #include <cstdio>

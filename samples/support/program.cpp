@@ -1,6 +1,7 @@
 #include "samples/support/program.h"
 
 #include "engine/error.h"
+#include "engine/gpu/lavapipe.h"
 #include <cstdio>
 #include <new>
 
@@ -17,6 +18,7 @@ int report(const std::string& name, const std::string& sentence, ExitCode code) 
 
 int runProgram(const std::string& description, const std::string& name,
                const std::function<void(CLI::App& program)>& work) {
+    preferWideVectors();
     CLI::App program(description, name);
     try {
         work(program);

@@ -1,5 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #pragma variant backward_subgroup_half QUADS_IN_HALF
 // Backward pass: the gradient of the loss by every layer's sums (before its activation), a lane a few rows.
 #include "lib/kernel.glsl"
@@ -17,6 +19,7 @@ RECORDS_READ(4, resultGradient);
 QUADS_WRITE(5, layerGradients);
 QUADS_WRITE(6, inputGradient); // of one element where there is none
 layout(push_constant) uniform Push { RowsParams params; };
+#include "nrc/kept_quads.glsl"
 
 #include "nrc/mlp_subgroup.glsl"
 
@@ -27,7 +30,7 @@ void beginWithResults(uint row) {
             uint result = quadIndex(rowR, q, kOutputQuads);
             vec4 gradient = uintBitsToFloat(loadRecord(resultGradient, result)) *
                             outputDerivative(uintBitsToFloat(loadRecord(results, result)));
-            storeQuad(layerGradients, quadIndex(rowR, kActivationQuads + q, kGradientQuads), gradient);
+            storeKept(quadIndex(rowR, kActivationQuads + q, kGradientQuads), gradient);
             layerIn[r * kLargestQuads + q] = gradient;
         }
 }
@@ -38,7 +41,7 @@ void finishBlock(uint row, uint layer, uint quad) {
         block[r] *= reluDerivative(loadQuad(activations, quadIndex(row + r * kSubgroupSize, column, kActivationQuads)));
     appendBlock(quad);
     [[unroll]] for (uint r = 0u; r < kRows; ++r)
-        storeQuad(layerGradients, quadIndex(row + r * kSubgroupSize, column, kGradientQuads), block[r]);
+        storeKept(quadIndex(row + r * kSubgroupSize, column, kGradientQuads), block[r]);
 }
 
 void storeInputGradient(uint row, uint quad) {

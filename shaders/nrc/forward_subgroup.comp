@@ -1,5 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
 #pragma variant forward_subgroup_half QUADS_IN_HALF
 #pragma variant infer_subgroup EVALUATE_ONLY
 #pragma variant infer_subgroup_half QUADS_IN_HALF EVALUATE_ONLY
@@ -17,13 +19,16 @@ RECORDS_WRITE(3, results);
 QUADS_WRITE(4, activations);
 #endif
 layout(push_constant) uniform Push { RowsParams params; };
+#ifndef EVALUATE_ONLY
+#include "nrc/kept_quads.glsl"
+#endif
 
 #include "nrc/mlp_subgroup.glsl"
 
 void keep(uint row, uint layer, uint quad) {
 #ifndef EVALUATE_ONLY
     [[unroll]] for (uint r = 0u; r < kRows; ++r)
-        storeQuad(activations, quadIndex(row + r * kSubgroupSize, layer * kWidthQuads + quad, kActivationQuads), block[r]);
+        storeKept(quadIndex(row + r * kSubgroupSize, layer * kWidthQuads + quad, kActivationQuads), block[r]);
 #endif
 }
 

@@ -13,7 +13,7 @@ void main() {
     uint quad = gl_GlobalInvocationID.x;
     if (quad >= params.weightQuads) return;
     vec4 sum = vec4(0.0);
-    for (uint chunk = 0u; chunk < kGradientChunks; ++chunk)
+    for (uint chunk = 0u; chunk < params.chunks; ++chunk)
         sum += uintBitsToFloat(loadRecord(partials, chunk * params.weightQuads + quad));
     storeRecord(gradients, quad, floatBitsToUint(sum * uintBitsToFloat(loadWord(scale, params.scaleWord))));
 }

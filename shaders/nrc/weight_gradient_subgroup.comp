@@ -1,9 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma variant weight_gradient_subgroup_half QUADS_IN_HALF
-// Sum over rows of layer gradient x activation: partial sums of fixed chunks of rows. A subgroup owns 16 outputs by 4
-// inputs a lane of one matrix; for each row its lanes load that row's activations, and broadcasts spread the row's
-// gradients, so that nothing is summed across lanes.
+// Sum over rows of layer gradient x activation: partial sums of fixed chunks of rows. A subgroup owns a block of outputs by
+// 4 inputs a lane of one matrix; for each row its lanes load that row's activations, and broadcasts spread the row's
+// gradients, so that nothing is summed across lanes. The more outputs, the fewer loads for each product.
 #include "lib/kernel.glsl"
 #include "nrc/quads.glsl"
 #include "nrc/mlp_shape.glsl"
@@ -15,13 +15,15 @@ QUADS_READ(3, layerGradients);
 RECORDS_WRITE(4, partials); // a chunk after the other, each laid out as the weights
 layout(push_constant) uniform Push { WeightGradientParams params; };
 
-const uint kOutputsTogether = 16u;
+layout(constant_id = 7) const uint kOutputsTogether = 16u;
+const uint kOutputQuadsTogether = kOutputsTogether / 4u;
 const uint kQuadsTogether = kSubgroupSize;
 const uint kRowsTogether = kSubgroupSize < kTileRows ? kSubgroupSize : kTileRows;
+const uint kQuadsAtOnce = kSubgroupSize / kRowsTogether; // of these rows' gradients, that all lanes load
 
 #include "nrc/weight_blocks.glsl"
 
-vec4 gradients[kOutputsTogether / 4u]; // [quad] of the lane's row
+vec4 gradients[(kOutputQuadsTogether + kQuadsAtOnce - 1u) / kQuadsAtOnce];
 vec4 inputs[kRowsTogether];            // [row] of the lane's quad
 
 // Does nothing, which compilers cannot know: it keeps these arrays in memory (as in mlp_subgroup.glsl).
@@ -35,10 +37,12 @@ void keepInMemory() {
 
 void loadRows(Block b, uint row, uint end) {
     uint gradientRow = row + gl_SubgroupInvocationID % kRowsTogether;
-    [[unroll]] for (uint q = 0u; q < kOutputsTogether / 4u; ++q)
-        gradients[q] = q < b.gradientQuads && gradientRow < end
-                           ? loadQuad(layerGradients, quadIndex(gradientRow, b.gradientQuad + q, kGradientQuads))
+    [[unroll]] for (uint i = 0u; i * kQuadsAtOnce < kOutputQuadsTogether; ++i) {
+        uint quad = i * kQuadsAtOnce + gl_SubgroupInvocationID / kRowsTogether;
+        gradients[i] = quad < b.gradientQuads && gradientRow < end
+                           ? loadQuad(layerGradients, quadIndex(gradientRow, b.gradientQuad + quad, kGradientQuads))
                            : vec4(0.0);
+    }
     // One branch around all of them: of a choice between two loads lavapipe executes both.
     if (b.isInput)
         [[unroll]] for (uint r = 0u; r < kRowsTogether; ++r)
@@ -62,11 +66,16 @@ void main() {
     for (; row < end; row += kRowsTogether) {
         loadRows(b, row, end);
         // Four outputs by four inputs at a time, row by row: as many sums as there are registers for.
-        [[unroll]] for (uint q = 0u; q < kOutputsTogether / 4u; ++q)
-            [[unroll]] for (uint r = 0u; r < kRowsTogether; ++r)
-                [[unroll]] for (uint c = 0u; c < 4u; ++c) sums[q * 4u + c] += subgroupBroadcast(gradients[q][c], r) * inputs[r];
+        [[unroll]] for (uint q = 0u; q < kOutputQuadsTogether; ++q)
+            if (q < b.gradientQuads)
+                [[unroll]] for (uint r = 0u; r < kRowsTogether; ++r)
+                    [[unroll]] for (uint c = 0u; c < 4u; ++c)
+                        sums[q * 4u + c] +=
+                            subgroupBroadcast(gradients[q / kQuadsAtOnce][c], r + q % kQuadsAtOnce * kRowsTogether) * inputs[r];
     }
     if (b.quad >= b.matrixQuads) return;
+    uint outputs = max(b.gradientQuads * 4u, kFeaturePadding); // the output matrix has fewer than a block
     [[unroll]] for (uint o = 0u; o < kOutputsTogether; ++o)
-        storeRecord(partials, (params.firstChunk + chunk) * params.weightQuads + b.matrix + (b.firstOutput + o) * b.matrixQuads + b.quad, floatBitsToUint(sums[o]));
+        if (o < outputs)
+            storeRecord(partials, (params.firstChunk + chunk) * params.weightQuads + b.matrix + (b.firstOutput + o) * b.matrixQuads + b.quad, floatBitsToUint(sums[o]));
 }

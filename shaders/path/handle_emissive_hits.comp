@@ -1,3 +1,48 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "path/handle_emissive_hits.glsl"
+#pragma variant handle_emissive_hits_cached WITH_CACHE
+// Rays that hit an emissive triangle: its radiance, weighted against light sampling.
+#include "lib/kernel.glsl"
+#include "shared/path.h"
+#include "shared/queue.h"
+
+RECORDS_READ(0, rays);
+RECORDS_READ(1, hits);
+COUNTERS_READ(2, counters);
+layout(set = 0, binding = 3, std430) buffer Radiance { vec4 radiance[]; };
+RECORDS_READ(4, geometry);
+RECORDS_READ(5, attributes);
+RECORDS_READ(6, materials);
+RECORDS_READ(7, textures);
+HALVES_READ(8, texels);
+RECORDS_READ(9, lights);
+#ifdef WITH_CACHE
+#define FIRST_TRAINING_BINDING 10
+#include "path/training_light.glsl"
+#endif
+layout(push_constant) uniform Push { BounceParams params; };
+#include "path/emitters.glsl"
+
+void main() {
+    uint slot = gl_GlobalInvocationID.x;
+    if (slot >= counters[kRayCounter + params.queueParity]) return;
+    uvec4 hit = loadRecord(hits, slot);
+    if (hit.y == kNoPrimitive) return;
+    TriangleRecord tri = loadTriangle(hit.y);
+    if (tri.light == kNoLight) return;
+    uint path = loadRecord(rays, slot * kRayRecords).w;
+    vec4 ray = uintBitsToFloat(loadRecord(rays, slot * kRayRecords + 1u));
+    vec3 beta = uintBitsToFloat(loadRecord(rays, slot * kRayRecords + 2u).rgb);
+
+    vec3 normal = cross(tri.e1, tri.e2);
+    float doubleArea = length(normal);
+    float cosine = -dot(normal, ray.xyz) / doubleArea; // > 0: the front is hit
+    vec3 emitted = emittedRadiance(tri.material, cosine > 0.0,
+                                   attributesFor(kEmissiveTexture, hit.y, uintBitsToFloat(hit.zw)));
+    float pdf = trianglePdf(tri.light, 0.5 * doubleArea, uintBitsToFloat(hit.x), abs(cosine));
+    float weight = params.depth == 0u ? 1.0 : powerHeuristic(ray.w, pdf);
+    radiance[path].rgb += beta * emitted * weight;
+#ifdef WITH_CACHE
+    if (params.depth > 0u) gatherEmission(path, emitted * weight);
+#endif
+}

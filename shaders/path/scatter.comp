@@ -1,3 +1,128 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "path/scatter.glsl"
+#pragma variant scatter_cached WITH_CACHE
+// The vertex at a hit: one light sample (a shadow ray) and one BSDF sample (the path's next ray).
+#include "lib/kernel.glsl"
+#include "shared/path.h"
+#include "shared/queue.h"
+
+RECORDS_READ(0, rays);
+RECORDS_READ(1, hits);
+COUNTERS(2, counters);
+RECORDS_READ(3, geometry);
+RECORDS_READ(4, attributes);
+RECORDS_READ(5, materials);
+RECORDS_READ(6, textures);
+HALVES_READ(7, texels);
+RECORDS_READ(8, lights);
+RECORDS_READ(9, environment);
+RECORDS_READ(10, environmentAlias);
+RECORDS_READ(11, reflectanceTable);
+RECORDS_WRITE(12, nextRays);
+RECORDS_WRITE(13, shadowRays);
+#ifdef WITH_CACHE
+#define FIRST_TRAINING_BINDING 14
+RECORDS_WRITE(17, queries);
+RECORDS_WRITE(18, queryWeights);
+RECORDS_WRITE(19, trainingQueries);
+COUNTERS(20, cacheCounters);
+#include "shared/cache.h"
+layout(push_constant) uniform Push { BounceParams params; CacheRule rule; };
+#else
+layout(push_constant) uniform Push { BounceParams params; };
+#endif
+#include "path/light_sampling.glsl"
+#include "path/reflectance.glsl"
+#include "path/surface.glsl"
+#ifdef WITH_CACHE
+#include "path/cached_path.glsl"
+#endif
+
+// The item's slot in a queue; one atomic per subgroup. Slots decide nothing but the order of work.
+uint pushItem(uint counter, bool alive) {
+    uvec4 ballot = subgroupBallot(alive);
+    uint base = 0u;
+    if (subgroupElect()) base = atomicAdd(counters[counter], subgroupBallotBitCount(ballot));
+    return subgroupBroadcastFirst(base) + subgroupBallotExclusiveBitCount(ballot);
+}
+
+void pushShadowRay(bool alive, vec3 origin, float tMax, vec3 direction, uint path, vec3 contribution) {
+    uint slot = pushItem(kShadowRayCounter, alive) * kShadowRayRecords;
+    if (!alive) return;
+    storeRecord(shadowRays, slot, uvec4(floatBitsToUint(origin), floatBitsToUint(tMax)));
+    storeRecord(shadowRays, slot + 1u, uvec4(floatBitsToUint(direction), path));
+    storeRecord(shadowRays, slot + 2u, uvec4(floatBitsToUint(contribution), 0u));
+}
+
+void pushRay(bool alive, vec3 origin, vec3 direction, uint path, vec3 beta, float pdf) {
+    uint slot = pushItem(kRayCounter + 1u - params.queueParity, alive) * kRayRecords;
+    if (!alive) return;
+    storeRecord(nextRays, slot, uvec4(floatBitsToUint(origin), path));
+    storeRecord(nextRays, slot + 1u, uvec4(floatBitsToUint(direction), floatBitsToUint(pdf)));
+    storeRecord(nextRays, slot + 2u, uvec4(floatBitsToUint(beta), 0u));
+}
+
+void main() {
+    uint item = gl_GlobalInvocationID.x;
+    uint count = counters[kRayCounter + params.queueParity];
+    uint slot = min(item, count - 1u); // every lane of a subgroup stays for the pushes
+    uvec4 hit = loadRecord(hits, slot);
+    bool alive = item < count && hit.y != kNoPrimitive;
+    uint path = loadRecord(rays, slot * kRayRecords).w;
+    vec3 view = -uintBitsToFloat(loadRecord(rays, slot * kRayRecords + 1u).xyz);
+    vec3 beta = uintBitsToFloat(loadRecord(rays, slot * kRayRecords + 2u).rgb);
+    uint pixel = params.firstPixel + path;
+
+    Surface s = loadSurface(alive ? hit.y : 0u, uintBitsToFloat(hit.zw), view);
+#ifdef WITH_CACHE
+    float arrivalPdf = uintBitsToFloat(loadRecord(rays, slot * kRayRecords + 1u).w);
+    CachedPath cached = arrive(alive, path, pixel, s, view, uintBitsToFloat(hit.x), arrivalPdf, beta);
+    alive = cached.renders || cached.trains;
+    vec3 directLight = vec3(0.0);
+#endif
+    Frame frame = frameFromNormal(s.shadingNormal);
+    vec3 v = toLocal(frame, view);
+    vec3 origin = s.position + s.geometricNormal * params.rayEpsilon;
+    vec3 abcView = reflectanceAt(v.z, s.roughness);
+    float mendView = diffuseMend(s.bsdf, abcView);
+    float pSpecular = kHasSpecular ? specularProbability(s.bsdf, abcView, mendView) : 0.0;
+
+    if (kHasEmitters || kHasEnvironment) {
+        float choice = kHasEmitters && kHasEnvironment
+                           ? unitFloat(randomBits(pixel, params.sampleIndex, lightChoiceBlock(params.depth), params.seed).x)
+                           : 0.0;
+        LightSample light = sampleLight(
+            origin, randomBits(pixel, params.sampleIndex, lightBlock(params.depth), params.seed), choice);
+        vec3 l = toLocal(frame, light.direction);
+        float mend = min(mendView, diffuseMend(s.bsdf, reflectanceAt(l.z, s.roughness)));
+        BsdfValue value = evaluateBsdf(s.bsdf, v, l, mend, pSpecular, kHasSpecular);
+        bool reflects = l.z > 0.0 && dot(s.geometricNormal, light.direction) > 0.0 && light.pdf > 0.0;
+        vec3 contribution =
+            reflects ? beta * value.fCos * light.radiance * (powerHeuristic(light.pdf, value.pdf) / light.pdf) : vec3(0.0);
+        bool counts = maxComponent(contribution) > 0.0;
+#ifdef WITH_CACHE
+        if (cached.trains && reflects) directLight = value.fCos * light.radiance * (powerHeuristic(light.pdf, value.pdf) / light.pdf);
+        counts = counts || maxComponent(directLight) > 0.0;
+#endif
+        pushShadowRay(alive && counts, origin, light.tMax, light.direction, path, contribution);
+    }
+
+    vec4 u = unitFloats(randomBits(pixel, params.sampleIndex, bsdfBlock(params.depth), params.seed));
+    vec3 l = sampleBsdf(s.bsdf, v, u.xyz, pSpecular, kHasSpecular);
+    vec3 direction = toWorld(frame, l);
+    float mend = min(mendView, diffuseMend(s.bsdf, reflectanceAt(l.z, s.roughness)));
+    BsdfValue value = evaluateBsdf(s.bsdf, v, l, mend, pSpecular, kHasSpecular);
+    bool reflects = l.z > 0.0 && dot(s.geometricNormal, direction) > 0.0 && value.pdf > 0.0;
+    vec3 nextBeta = reflects ? beta * value.fCos / value.pdf : vec3(0.0);
+    // Russian roulette after bounce 3, on the throughput itself.
+    float survival = params.depth >= 3u ? min(maxComponent(nextBeta), 1.0) : 1.0;
+    bool scatters = maxComponent(nextBeta) > 0.0;
+#ifdef WITH_CACHE
+    vec3 throughput = reflects ? value.fCos / value.pdf : vec3(0.0);
+    survival = survivalOf(cached, survival, throughput);
+    scatters = scatters || (!cached.renders && maxComponent(throughput) > 0.0);
+    leave(cached, directLight, throughput / max(survival, 1e-30));
+#endif
+    bool survives = scatters && u.w < survival;
+    pushRay(alive && survives, origin, direction, path, nextBeta / max(survival, 1e-30), value.pdf);
+}

@@ -32,6 +32,8 @@ struct RowsParams {
     uint counter;
     uint capacity; // a multiple of kRowPadding
     uint first;    // likewise
+    uint unused;   // to a multiple of 8 bytes
+    uvec2 kept;    // address of what a training pass keeps, where its kernel stores by address; else 0
 };
 
 // A level of a feature grid. A point p of the unit cube lies at p scale + 1/2 in cells, and corner (x, y, z) has entry
@@ -59,8 +61,8 @@ struct TakeGradientParams {
     uint scaleWord; // of the buffer that holds the factor
 };
 
-// weight_gradient: a batch's rows are summed in kGradientChunks chunks of chunkRows rows, a multiple of kTileRows. A pass
-// sums `chunks` of them, from firstChunk on, whose rows are those from `first` on.
+// weight_gradient: a batch's rows are summed in at most kGradientChunks chunks of chunkRows rows, a multiple of kRowPadding. A
+// pass sums `chunks` of them, from firstChunk on, whose rows are those from `first` on.
 SHARED_CONST uint kGradientChunks = 32u;
 struct WeightGradientParams {
     uint counter;
@@ -73,6 +75,7 @@ struct WeightGradientParams {
 };
 
 struct SumGradientsParams {
+    uint chunks;
     uint weightQuads;
     uint scaleWord; // of the buffer that holds the factor
 };

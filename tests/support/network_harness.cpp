@@ -112,7 +112,7 @@ NetworkOutputs NetworkHarness::run(const NetworkBatch& batch, float scale) {
     const Buffer activations = used("activations", network_.activationBytes(capacity_));
     const Buffer layerGradients = used("layer gradients", network_.layerGradientBytes(capacity_));
     const Buffer inputGradient = used("input gradient", encodedRows().bytes(capacity_));
-    const Buffer partials = used("partials", network_.partialBytes());
+    const Buffer partials = used("partials", network_.partialBytes(capacity_));
     const Buffer gradients = used("gradients", network_.weightCount() * sizeof(float));
     const Buffer scales = makeBuffer<float>(validatedDevice(), "scales", {1e9f, scale});
     const BufferRange inputGradientRange = inputGradient;
@@ -123,7 +123,7 @@ NetworkOutputs NetworkHarness::run(const NetworkBatch& batch, float scale) {
     network_.backward(graph, count, packed_, activations, results, resultGradient, layerGradients,
                       &inputGradientRange);
     network_.weightGradient(graph, count, capacity_, encoded, activations, layerGradients, partials);
-    network_.sumGradients(graph, partials, gradients, scales, 1);
+    network_.sumGradients(graph, capacity_, partials, gradients, scales, 1);
     graph.execute();
 
     const auto gradient = download<float>(validatedDevice(), gradients, network_.weightCount());

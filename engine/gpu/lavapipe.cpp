@@ -1,10 +1,21 @@
-#include "engine/gpu/shader_cache.h"
+#include "engine/gpu/lavapipe.h"
 #include <cstdlib>
 #include <filesystem>
 #include <string>
 
 namespace irradia {
 namespace {
+
+constexpr const char* kWidthVariable = "LP_NATIVE_VECTOR_WIDTH";
+
+bool processorHas512Bits() {
+#if defined(__x86_64__)
+    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+           __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
+#else
+    return false;
+#endif
+}
 
 // Where Mesa keeps its cache; empty if it has no place.
 std::filesystem::path cacheFolder() {
@@ -29,9 +40,13 @@ void moveCache(const std::string& width) {
 
 } // namespace
 
+void preferWideVectors() {
+    if (processorHas512Bits()) setenv(kWidthVariable, "512", 0); // 0: what is set stays
+}
+
 void separateShaderCaches() {
     static const bool done = [] {
-        if (const char* width = std::getenv("LP_NATIVE_VECTOR_WIDTH")) moveCache(width);
+        if (const char* width = std::getenv(kWidthVariable)) moveCache(width);
         return true;
     }();
     static_cast<void>(done);

@@ -90,7 +90,7 @@ void NrcRenderer::renderFrame(const Camera& camera, uint32_t index) {
     if (learns_) {
         graph.section("train");
         for (const Wave& wave : tracer_.surfaceWaves(surfacePaths_))
-            tracer_.traceSurfaceWave(wave, index, meanChord(bounds_), cachePaths(true));
+            tracer_.traceSurfaceWave(wave, index, meanChord(bounds_), surfacePaths());
         cache_.learn(graph, trainingPaths(), adaptation_.effort());
         graph.section("");
     }
@@ -119,6 +119,13 @@ NrcRenderer::Tiles NrcRenderer::wantedTiles() const {
     const double x = std::clamp(std::floor(std::sqrt(paths * width / height)), 1.0, std::min(width, most));
     const double y = std::clamp(std::floor(paths / x), 1.0, std::min(height, std::floor(most / x)));
     return {static_cast<uint32_t>(x), static_cast<uint32_t>(y)};
+}
+
+// All of such a path is suffix.
+CachePaths NrcRenderer::surfacePaths() const {
+    CachePaths paths = cachePaths(true);
+    paths.rule.lastDepth = options_.config.suffixBounces;
+    return paths;
 }
 
 CachePaths NrcRenderer::cachePaths(bool train) const {

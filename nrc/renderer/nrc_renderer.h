@@ -40,6 +40,7 @@ private:
     };
 
     CachePaths cachePaths(bool train) const;
+    CachePaths surfacePaths() const;
     Tiles wantedTiles() const;
     uint32_t trainingPaths() const { return tiles_.count() + surfacePaths_; } // of this frame
 

@@ -463,6 +463,7 @@ TEST_CASE("spherical coordinates stay in the unit square, at poles and seams too
         v.view = v.geometricNormal = directions[p % directions.size()];
         v.shadingNormal = directions[(p + 1) % directions.size()];
         v.position = glm::clamp(v.position, Vec3(0.0), Vec3(10.0));
+        v.isDelta = false;
     }
     const Walks walks = walkOnDevice(paths, toRule(settingsOf(kCases[5]), 0.0f)); // all ask at once
     REQUIRE(walks.queries.size() == kPaths);

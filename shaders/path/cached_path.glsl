@@ -63,7 +63,8 @@ CachedPath continuePath(uint path, float distance, float cosine, float pdf) {
     c.training = state.z;
     c.flags = state.w;
     c.a0 = uintBitsToFloat(state.x);
-    c.spread = uintBitsToFloat(state.y) + distance * inversesqrt(pdf * cosine);
+    bool isMirrored = (c.flags & kPathMirrored) != 0u; // a delta lobe adds no spread
+    c.spread = uintBitsToFloat(state.y) + (isMirrored ? 0.0 : distance * inversesqrt(pdf * cosine));
     uvec4 training = trainingPaths[max(c.training, 1u) * kTrainingPathVectors - kTrainingPathVectors];
     c.weight = uintBitsToFloat(training.rgb);
     c.vertices = training.w;
@@ -155,9 +156,10 @@ CachedPath arrive(bool alive, uint path, uint pixel, Surface s, vec3 view, float
     c.trains = alive && c.training != 0u;
     c.renders = alive && (c.flags & kPathEnded) == 0u && params.depth < rule.deepest;
     CacheInputs inputs = inputsOf(s, view);
-    bool inBox = isInBox(s.position);
+    bool delta = isDelta(s);
+    bool isCached = isInBox(s.position) && !delta;
 
-    bool asks = c.renders && inBox && (c.flags & kPathAsked) == 0u &&
+    bool asks = c.renders && isCached && (c.flags & kPathAsked) == 0u &&
                 (hasSpread(c, rule.boxHigh.w) || params.depth >= rule.endDepth);
     float choice = unitFloat(randomBits(pixel, params.sampleIndex, lightChoiceBlock(params.depth), params.seed).y);
     bool goesOn = choice < rule.residualShare;
@@ -172,14 +174,15 @@ CachedPath arrive(bool alive, uint path, uint pixel, Surface s, vec3 view, float
         // The vertex that is asked plays the primary vertex to the suffix, as the first of a path from a surface does.
         bool inSuffix = (c.flags & (kPathAsked | kPathEnded)) != 0u && !asks && params.depth > 0u;
         bool suffixEnds = inSuffix && (c.flags & kPathUnbiased) == 0u && hasSpread(c, rule.trainingSpread);
-        if (inBox && (suffixEnds || params.depth >= rule.lastDepth)) {
+        if (isCached && (suffixEnds || params.depth >= rule.lastDepth)) {
             endInCache(c, inputs);
             c.trains = false;
-        } else if (inBox && !isDelta(s) && c.vertices < kMaxTrainingVertices) {
+        } else if (isCached && c.vertices < kMaxTrainingVertices) {
             recordVertex(c, inputs);
         }
     }
     c.spread = asks ? 0.0 : c.spread;
+    c.flags = delta ? c.flags | kPathMirrored : c.flags & ~kPathMirrored;
     return c;
 }
 

@@ -62,6 +62,7 @@ SHARED_CONST uint kNoDepth = 0xffffffffu;
 SHARED_CONST uint kPathEnded = 1u;    // for rendering: what follows only trains
 SHARED_CONST uint kPathAsked = 2u;    // has had its query, and goes on for the residual
 SHARED_CONST uint kPathUnbiased = 4u; // its suffix is not ended by the spread
+SHARED_CONST uint kPathMirrored = 8u; // its ray comes from a delta lobe
 
 // TrainingPath: vec4 (weight rgb from the last recorded vertex to the ray in flight, number of vertices as uint bits),
 // vec4 (light sample in flight rgb, 1 as uint bits where the path has ended in the cache: then its row of training queries

@@ -39,7 +39,8 @@ public:
     }
 
 private:
-    bool isInBox(size_t v) const { return settings_.box.contains(path_[v].position); }
+    // A delta lobe scatters nothing that a cache could hold.
+    bool isCached(size_t v) const { return settings_.box.contains(path_[v].position) && !path_[v].isDelta; }
 
     bool hasSpread(size_t from, size_t to, double threshold) {
         const double limit = threshold * primaryArea(path_.front()), a = areaSpread(path_, from, to);
@@ -49,7 +50,7 @@ private:
 
     size_t findQuery() {
         for (size_t v = 0; v < std::min<size_t>(reached_, settings_.deepest); ++v)
-            if (isInBox(v) && (v >= settings_.endDepth || hasSpread(0, v, settings_.spread))) return v;
+            if (isCached(v) && (v >= settings_.endDepth || hasSpread(0, v, settings_.spread))) return v;
         return reached_;
     }
 
@@ -58,7 +59,7 @@ private:
         const bool hasAsked = query < reached_;
         const size_t suffix = hasAsked ? query + 1 : settings_.deepest;
         for (size_t v = 0; v < reached_; ++v) {
-            if (!isInBox(v)) continue;
+            if (!isCached(v)) continue;
             if (v >= settings_.lastDepth) return v;
             if (v >= suffix && !isUnbiased && hasSpread(hasAsked ? query : 0, v, settings_.trainingSpread))
                 return v;
@@ -69,7 +70,7 @@ private:
     void record(size_t end) {
         std::vector<size_t> recorded;
         for (size_t v = 0; v < end && recorded.size() < kMaxRecorded; ++v)
-            if (isInBox(v) && !path_[v].isDelta) recorded.push_back(v);
+            if (isCached(v)) recorded.push_back(v);
         const bool endsInCache = end < reached_;
         for (size_t i = 0; i < recorded.size(); ++i) {
             const size_t at = recorded[i], next = i + 1 < recorded.size() ? recorded[i + 1] : end;
@@ -121,7 +122,8 @@ double primaryArea(const CacheVertex& primary) {
 double areaSpread(const std::vector<CacheVertex>& path, size_t from, size_t to) {
     double sum = 0.0;
     for (size_t v = from + 1; v <= to; ++v)
-        sum += std::sqrt(path[v].distance * path[v].distance / (path[v].pdf * cosineOf(path[v])));
+        if (!path[v - 1].isDelta)
+            sum += std::sqrt(path[v].distance * path[v].distance / (path[v].pdf * cosineOf(path[v])));
     return sum * sum;
 }
 

@@ -24,12 +24,8 @@ NetworkConfig resolved(const Device& device, NetworkConfig config) {
     return config;
 }
 
-uint64_t addressOf(const BufferRange& range) {
-    return range.buffer->address() + range.offset;
-}
-
-gpu::RowsParams rowsParams(const RowCount& rows, uint64_t kept = 0) {
-    return {rows.index, rows.capacity, rows.first, 0, {uint32_t(kept), uint32_t(kept >> 32)}};
+gpu::RowsParams rowsParams(const RowCount& rows, glm::uvec2 kept = {}) {
+    return {rows.index, rows.capacity, rows.first, 0, kept};
 }
 
 uint32_t chunkCount(uint32_t rows, uint32_t ofChunk) {
@@ -139,7 +135,7 @@ void Network::forward(FrameGraph& graph, const RowCount& rows, BufferRange encod
         .read(packed)
         .write(results)
         .write(activations)
-        .push(rowsParams(rows, state_->kernels.keepsByAddress ? addressOf(activations) : 0))
+        .push(rowsParams(rows, activations.address()))
         .dispatchGroups(state_->kernels.forwardGroups(rows.capacity));
 }
 
@@ -155,7 +151,7 @@ void Network::backward(FrameGraph& graph, const RowCount& rows, BufferRange pack
         .read(resultGradient)
         .write(layerGradients)
         .write(inputGradient ? *inputGradient : BufferRange(state_->none))
-        .push(rowsParams(rows, state_->kernels.keepsByAddress ? addressOf(layerGradients) : 0))
+        .push(rowsParams(rows, layerGradients.address()))
         .dispatchGroups(state_->kernels.forwardGroups(rows.capacity));
 }
 

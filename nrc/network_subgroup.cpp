@@ -44,7 +44,6 @@ NetworkKernels makeSubgroupKernels(Device& device, const NetworkConfig& config, 
 
     kernels.inferRows = kernels.infer.workgroupSize() * rows;
     kernels.forwardRows = kernels.forward.workgroupSize() * rows;
-    kernels.keepsByAddress = true;
     kernels.weightBlocks = weightBlocks(shape, gradientOutputs, device.subgroupSize());
     kernels.weightBlocksPerGroup = kernels.weightGradient.workgroupSize() / device.subgroupSize();
     return kernels;

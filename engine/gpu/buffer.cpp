@@ -87,6 +87,7 @@ std::span<std::byte> Buffer::mapped() const {
 }
 
 uint64_t Buffer::address() const {
+    if (!device_->features().bufferDeviceAddress) return 0;
     VkBufferDeviceAddressInfo info{VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO};
     info.buffer = buffer_;
     return vkGetBufferDeviceAddress(device_->handle(), &info);

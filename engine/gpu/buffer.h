@@ -4,6 +4,7 @@
 #include "engine/gpu/device.h"
 #include <algorithm>
 #include <cstddef>
+#include <glm/vec2.hpp>
 #include <map>
 #include <span>
 #include <string>
@@ -34,7 +35,7 @@ public:
     bool isMapped() const { return mapped_ != nullptr; } // Memory::Host
     std::span<std::byte> mapped() const;                 // Memory::Host only
 
-    // Of its first byte, for kernels that take addresses. The device must have bufferDeviceAddress.
+    // Of its first byte; 0 where the device has no bufferDeviceAddress.
     uint64_t address() const;
 
     // A view of [offset, offset + range) as texels of `format`; made once, owned by the buffer.
@@ -65,6 +66,13 @@ struct BufferRange {
         : buffer(&b)
         , offset(at)
         , bytes(size) {}
+
+    // Low and high word of the first byte's address, as kernels take it; of use where the device has
+    // addresses.
+    glm::uvec2 address() const {
+        const uint64_t first = buffer->address() + offset;
+        return {static_cast<uint32_t>(first), static_cast<uint32_t>(first >> 32)};
+    }
 };
 
 // Synchronous copies through a staging buffer; the ranges must lie inside the buffer.

@@ -59,6 +59,7 @@ public:
     uint32_t nativeSubgroupSize() const; // of kernels that are not pinned
     bool texelRecords() const;           // which form of the kernels is used
     const OptionalFeatures& features() const;
+    bool storesByAddress() const; // a CPU that can (shaders/lib/store_by_address.glsl), where it is faster
     const VkPhysicalDeviceLimits& limits() const;
 
     // Memory: plan() prints the sum and the largest of what is about to be allocated and throws

@@ -19,7 +19,7 @@ RECORDS_READ(4, resultGradient);
 QUADS_WRITE(5, layerGradients);
 QUADS_WRITE(6, inputGradient); // of one element where there is none
 layout(push_constant) uniform Push { RowsParams params; };
-#include "nrc/kept_quads.glsl"
+#include "lib/store_by_address.glsl"
 
 #include "nrc/mlp_subgroup.glsl"
 
@@ -30,7 +30,7 @@ void beginWithResults(uint row) {
             uint result = quadIndex(rowR, q, kOutputQuads);
             vec4 gradient = uintBitsToFloat(loadRecord(resultGradient, result)) *
                             outputDerivative(uintBitsToFloat(loadRecord(results, result)));
-            storeKept(quadIndex(rowR, kActivationQuads + q, kGradientQuads), gradient);
+            storeQuadAt(params.kept, quadIndex(rowR, kActivationQuads + q, kGradientQuads), gradient);
             layerIn[r * kLargestQuads + q] = gradient;
         }
 }
@@ -41,7 +41,7 @@ void finishBlock(uint row, uint layer, uint quad) {
         block[r] *= reluDerivative(loadQuad(activations, quadIndex(row + r * kSubgroupSize, column, kActivationQuads)));
     appendBlock(quad);
     [[unroll]] for (uint r = 0u; r < kRows; ++r)
-        storeKept(quadIndex(row + r * kSubgroupSize, column, kGradientQuads), block[r]);
+        storeQuadAt(params.kept, quadIndex(row + r * kSubgroupSize, column, kGradientQuads), block[r]);
 }
 
 void storeInputGradient(uint row, uint quad) {

@@ -20,7 +20,7 @@ QUADS_WRITE(4, activations);
 #endif
 layout(push_constant) uniform Push { RowsParams params; };
 #ifndef EVALUATE_ONLY
-#include "nrc/kept_quads.glsl"
+#include "lib/store_by_address.glsl"
 #endif
 
 #include "nrc/mlp_subgroup.glsl"
@@ -28,7 +28,7 @@ layout(push_constant) uniform Push { RowsParams params; };
 void keep(uint row, uint layer, uint quad) {
 #ifndef EVALUATE_ONLY
     [[unroll]] for (uint r = 0u; r < kRows; ++r)
-        storeKept(quadIndex(row + r * kSubgroupSize, layer * kWidthQuads + quad, kActivationQuads), block[r]);
+        storeQuadAt(params.kept, quadIndex(row + r * kSubgroupSize, layer * kWidthQuads + quad, kActivationQuads), block[r]);
 #endif
 }
 

@@ -1,5 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_buffer_reference : enable
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : enable
+#pragma variant gather_records_by_address BY_ADDRESS
 // The batch's records side by side. One with a value that is not finite or too large becomes a row of zeros and is marked.
 #include "lib/kernel.glsl"
 #include "lib/permutation.glsl"
@@ -13,6 +16,13 @@ RECORDS_WRITE(3, batchInputs);
 RECORDS_WRITE(4, batchTargets);
 WORDS_WRITE(5, usable); // 1 or 0 a row
 layout(push_constant) uniform Push { GatherParams params; };
+
+#ifdef BY_ADDRESS
+#include "lib/store_by_address.glsl"
+#define storeGathered(name, index, record) storeRecordAt(params.name, index, record)
+#else
+#define storeGathered(name, index, record) storeRecord(name, index, record)
+#endif
 
 uint inputQuads() { return (params.inputs + 3u) / 4u; }
 uint targetQuads() { return (params.targets + 3u) / 4u; }
@@ -34,9 +44,9 @@ void main() {
     uint record = permute(state.batchFirst + row, state.records, state.permutationKey);
     bool use = isUsable(record);
     for (uint q = 0u; q < inputQuads(); ++q)
-        storeRecord(batchInputs, quadIndex(row, q, inputQuads()), use ? loadRecord(inputs, quadIndex(record, q, inputQuads())) : uvec4(0u));
+        storeGathered(batchInputs, quadIndex(row, q, inputQuads()), use ? loadRecord(inputs, quadIndex(record, q, inputQuads())) : uvec4(0u));
     for (uint q = 0u; q < targetQuads(); ++q)
-        storeRecord(batchTargets, quadIndex(row, q, targetQuads()), use ? loadRecord(targets, quadIndex(record, q, targetQuads())) : uvec4(0u));
+        storeGathered(batchTargets, quadIndex(row, q, targetQuads()), use ? loadRecord(targets, quadIndex(record, q, targetQuads())) : uvec4(0u));
     storeWord(usable, row, use ? 1u : 0u);
     if (!use) atomicAdd(state.droppedRecords, 1u);
 }

@@ -12,6 +12,12 @@ uvec2 quadBits(vec4 v) { return uvec2(packHalf2x16(v.xy), packHalf2x16(v.zw)); }
 #define loadQuad(name, index) uintBitsToFloat(loadRecord(name, index))
 uvec4 quadBits(vec4 v) { return floatBitsToUint(v); }
 #endif
+// The same where a pass is given an address (lib/store_by_address.glsl).
+#ifdef QUADS_IN_HALF
+#define storeQuadAt(address, index, value) storeHalvesAt(address, index, quadBits(value))
+#else
+#define storeQuadAt(address, index, value) storeRecordAt(address, index, quadBits(value))
+#endif
 #define storeQuad(name, index, value) name[index] = quadBits(value)
 
 // How many of the rows that a pass may have there are, from its `params` and `counters`.

@@ -53,6 +53,9 @@ struct GatherParams {
     uint inputs; // of a record
     uint targets;
     float limit; // of a record's values
+    uint unused;
+    uvec2 batchInputs; // addresses, where the kernel stores by them
+    uvec2 batchTargets;
 };
 
 // loss: kinds as constant 2 of loss.comp

@@ -36,8 +36,9 @@ constexpr uint32_t kCpuPartRows = 8192;
 
 // Whole chunks of the weights' gradient.
 uint32_t rowsOfPart(const Device& device, uint32_t batchRows) {
+    if (!device.isCpu() || batchRows <= kCpuPartRows) return paddedRows(batchRows);
     const uint32_t chunk = Network::chunkRows(batchRows);
-    return device.isCpu() ? std::max(kCpuPartRows / chunk, 1u) * chunk : paddedRows(batchRows);
+    return std::max(kCpuPartRows / chunk, 1u) * chunk;
 }
 
 uint32_t wholeParts(uint32_t batchRows, uint32_t partRows) {

@@ -53,13 +53,15 @@ struct RadianceCache::State {
         , firstRecords(d, "first records", uint64_t(pathRows) * 4)
         , recordInputs(d, "record inputs", capacity * kInputBytes)
         , recordTargets(d, "record targets", uint64_t(capacity) * 16)
-        , state(makeBuffer(d, "cache state", std::vector{gpu::CacheState{1.0f, 0, 0, 0, 0, 0, 0, 0}}))
+        , state(makeBuffer(d, "cache state", std::vector{gpu::CacheState{1.0f, 1.0f, 0, 0, 0, 0, 0, 0}}))
         , resolveQueries(d, kernels::resolve_queries)
         , propagateTraining(d, kernels::propagate_training)
         , countRecords(d, kernels::count_records)
-        , writeRecords(d, kernels::write_records) {}
+        , writeRecords(d, kernels::write_records)
+        , rescaleOutputs(d, kernels::rescale_outputs) {}
 
     void writeTargets(FrameGraph& graph, uint32_t paths);
+    void followScale(FrameGraph& graph);
 
     Device& device;
     CacheOptions options;
@@ -69,7 +71,7 @@ struct RadianceCache::State {
     Buffer trainingPaths, trainingVertices, trainingQueries;
     Buffer pathSums, firstRecords, recordInputs, recordTargets;
     Buffer state; // gpu::CacheState
-    Kernel resolveQueries, propagateTraining, countRecords, writeRecords;
+    Kernel resolveQueries, propagateTraining, countRecords, writeRecords, rescaleOutputs;
 };
 
 RadianceCache::RadianceCache(Device& device, const CacheOptions& options)
@@ -168,6 +170,20 @@ void RadianceCache::State::writeTargets(FrameGraph& graph, uint32_t paths) {
         .dispatch(uint64_t(paths) * gpu::kMaxTrainingVertices);
 }
 
+// Outputs that are no linear function of the last layer are left to learn what has changed.
+void RadianceCache::State::followScale(FrameGraph& graph) {
+    const OutputActivation output = options.model.network.outputActivation;
+    if (output != OutputActivation::None && output != OutputActivation::ReLU) return;
+    const OutputLayer layer = trainer.outputLayer();
+    const gpu::RescaleParams params{static_cast<uint32_t>(layer.values.bytes / 16)};
+    graph.pass(rescaleOutputs)
+        .read(state)
+        .readWrite(layer.values)
+        .readWrite(layer.averages)
+        .push(params)
+        .dispatch(params.quads);
+}
+
 void RadianceCache::learn(FrameGraph& graph, uint32_t paths, const TrainingEffort& effort) {
     State& s = *state_;
     if (paths > s.options.trainingPaths)
@@ -175,6 +191,7 @@ void RadianceCache::learn(FrameGraph& graph, uint32_t paths, const TrainingEffor
              s.options.trainingPaths);
     if (paths == 0) return;
     s.writeTargets(graph, paths);
+    s.followScale(graph);
     s.trainer.train(graph,
                     {RowCount{s.counters, gpu::kRecordCounter, s.capacity}, s.recordInputs, s.recordTargets},
                     s.options.steps, effort);

@@ -19,7 +19,7 @@ struct CacheOptions {
     uint32_t steps = 4;         // of optimisation a frame
     bool factorise = true;      // what is learned is multiplied by the reflectance alpha + beta
     Weights selfTraining = Weights::Ema; // whose predictions end the training paths
-    float meanDecay = 0.95f;             // of the running mean of targets, a frame
+    float meanDecay = 0.95f;             // of the running mean of the targets' brightness, a frame
     uint64_t seed = 1;
     std::vector<glm::vec3> touched; // as TrainerOptions'
 };

@@ -258,6 +258,13 @@ void Trainer::infer(FrameGraph& graph, const RowCount& rows, BufferRange inputs,
     state_->network.infer(graph, rows, state_->inferEncoded, state_->inferPacked, results);
 }
 
+OutputLayer Trainer::outputLayer() const {
+    const ParameterGroup& weights = state_->weights;
+    const uint64_t bytes = uint64_t(gpu::kFeaturePadding) * state_->config.network.width * 4;
+    const uint64_t first = weights.count * 4 - bytes;
+    return {{weights.values, first, bytes}, {weights.averages, first, bytes}};
+}
+
 std::string Trainer::shapeName() const {
     const ModelConfig& model = state_->config;
     return fmt::format("{} with {} inputs, {} outputs, output activation {}, encoding {}",

@@ -53,6 +53,11 @@ struct TrainingEffort {
     std::optional<double> emaDecay; // instead of the optimizer's, in [0, 1)
 };
 
+// Weights of the network's last layer, and their averages (nrc/network.h's order).
+struct OutputLayer {
+    BufferRange values, averages;
+};
+
 class Trainer {
 public:
     Trainer(Device& device, const ModelConfig& config, uint32_t inputs, uint32_t outputs,
@@ -84,6 +89,10 @@ public:
     // Parameters as they are, for tests and tools: parameterCount() floats.
     std::vector<float> parameters(Weights weights) const;
     void setParameters(std::span<const float> values); // weights; the optimiser's state stays
+
+    // For who changes what the outputs mean, before the next train(): until then predictions may come from
+    // either.
+    OutputLayer outputLayer() const;
 
     // What must be equal for one trainer to load what another saved, in words.
     std::string shapeName() const;

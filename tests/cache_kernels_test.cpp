@@ -161,7 +161,7 @@ namespace {
 struct Propagated {
     std::vector<std::vector<Vec3>> targets;
     std::vector<uint32_t> counts;
-    std::vector<double> sums, largest;
+    std::vector<double> rootSums, largest;
     uint32_t clamped = 0;
 };
 
@@ -173,9 +173,12 @@ std::vector<Vec3> randomPredictions(size_t count) {
 }
 
 Propagated propagate(RecordAccess form, const std::vector<TrainingPath>& paths,
-                     const std::vector<Vec3>& predictions, bool factorise, double scale) {
+                     const std::vector<Vec3>& predictions, bool factorise, double scale,
+                     uint32_t frames = 1) {
     CacheBench bench(form);
-    bench.set(stateOf(scale));
+    gpu::CacheState state = stateOf(scale);
+    state.frames = frames;
+    bench.set(state);
     const TrainingBuffers packed = packPaths(paths);
     const Buffer pathBuffer = bench.make(packed.paths), vertices = bench.make(packed.vertices),
                  queries = bench.make(packed.queries),
@@ -203,7 +206,7 @@ Propagated propagate(RecordAccess form, const std::vector<TrainingPath>& paths,
     }
     for (const glm::uvec4& r : download<glm::uvec4>(bench.device, sums, paths.size())) {
         result.counts.push_back(r.x);
-        result.sums.push_back(double(std::bit_cast<float>(r.y)));
+        result.rootSums.push_back(double(std::bit_cast<float>(r.y)));
         result.largest.push_back(double(std::bit_cast<float>(r.z)));
     }
     result.clamped = bench.counter(gpu::kClampedPredictions);
@@ -223,11 +226,11 @@ Propagated twin(const std::vector<TrainingPath>& paths, const std::vector<Vec3>&
         }
         result.targets.push_back(reference::targets(paths[p], last));
         result.counts.push_back(static_cast<uint32_t>(paths[p].vertices.size()));
-        double& sum = result.sums.emplace_back(0.0);
+        double& rootSum = result.rootSums.emplace_back(0.0);
         double& largest = result.largest.emplace_back(0.0);
         for (const Vec3& target : result.targets.back()) {
             const double y = reference::luminance(target);
-            sum += std::abs(y) < reference::kLargestRadiance ? y : 0.0;
+            rootSum += y >= 0.0 && y < reference::kLargestRadiance ? std::sqrt(y) : 0.0;
             largest = std::fmax(largest, y);
         }
     }
@@ -246,7 +249,8 @@ double worstOf(const Propagated& actual, const Propagated& expected) {
         if (!std::isfinite(size)) size = 1.0;
         for (size_t v = 0; v < expected.targets[p].size(); ++v)
             worst = std::max(worst, difference(actual.targets[p][v], expected.targets[p][v], size));
-        worst = std::max(worst, difference(Vec3(actual.sums[p]), Vec3(expected.sums[p]), 8.0 * size));
+        worst = std::max(worst, difference(Vec3(actual.rootSums[p]), Vec3(expected.rootSums[p]),
+                                           8.0 * std::sqrt(size)));
         worst = std::max(worst, difference(Vec3(actual.largest[p]), Vec3(expected.largest[p]), size));
     }
     return worst;
@@ -271,6 +275,16 @@ TEST_CASE("light goes back along training paths as in the twin") {
             if (count == 1000) CHECK(expected.clamped > 50);
         }
     }
+}
+
+TEST_CASE("a cache that has learned nothing adds nothing to targets") {
+    Random random(8);
+    std::vector<TrainingPath> paths = randomPaths(random, 200);
+    const std::vector<Vec3> predictions = randomPredictions(200);
+    const Propagated actual = propagate(RecordAccess::Texel, paths, predictions, true, 4.0, 0);
+    CHECK(worstOf(actual, twin(paths, predictions, true, 4.0)) > 0.1);
+    for (TrainingPath& path : paths) path.end.reset();
+    CHECK(worstOf(actual, twin(paths, predictions, true, 4.0)) <= kPropagated);
 }
 
 TEST_CASE("planted: a step too few, the reflectance of another vertex, self-training where none is due") {

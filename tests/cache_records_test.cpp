@@ -1,4 +1,4 @@
-// From training vertices to records: their places, the running mean of targets and the scale, inputs and
+// From training vertices to records: their places, the targets' brightness and the scale, inputs and
 // targets against twins in double precision; and that bad radiance leaves no trace in the cache.
 #include "kernels/nrc.h"
 #include "nrc/radiance_cache.h"
@@ -33,15 +33,15 @@ namespace {
 
 struct PathSum {
     uint32_t records = 0;
-    float sum = 0.0f, largest = 0.0f;
+    float rootSum = 0.0f, largest = 0.0f;
 };
 
 std::vector<PathSum> randomSums(Random& random, size_t count, double brightness) {
     std::vector<PathSum> sums(count);
     for (PathSum& s : sums) {
         s.records = static_cast<uint32_t>(random.uniform() * (reference::kMaxRecorded + 1));
-        s.sum = static_cast<float>(s.records * brightness * (0.5 + random.uniform()));
-        s.largest = s.sum;
+        s.rootSum = static_cast<float>(s.records * std::sqrt(brightness * (0.5 + random.uniform())));
+        s.largest = s.rootSum;
     }
     return sums;
 }
@@ -49,7 +49,7 @@ std::vector<PathSum> randomSums(Random& random, size_t count, double brightness)
 Quads packSums(const std::vector<PathSum>& sums) {
     Quads records(std::max<size_t>(sums.size(), 1));
     for (size_t i = 0; i < sums.size(); ++i)
-        records[i] = {sums[i].records, std::bit_cast<uint32_t>(sums[i].sum),
+        records[i] = {sums[i].records, std::bit_cast<uint32_t>(sums[i].rootSum),
                       std::bit_cast<uint32_t>(sums[i].largest), 0};
     return records;
 }
@@ -83,7 +83,7 @@ public:
 
 double sumOf(const std::vector<PathSum>& sums) {
     return std::accumulate(sums.begin(), sums.end(), 0.0,
-                           [](double sum, const PathSum& s) { return sum + double(s.sum); });
+                           [](double sum, const PathSum& s) { return sum + double(s.rootSum); });
 }
 uint32_t recordsOf(const std::vector<PathSum>& sums) {
     return std::accumulate(sums.begin(), sums.end(), 0u,
@@ -111,7 +111,7 @@ float sumInFixedOrder(const std::vector<PathSum>& sums, size_t lanes) {
     float total = 0.0f;
     for (size_t lane = 0; lane < lanes; ++lane) {
         float sum = 0.0f;
-        for (size_t p = lane * share; p < std::min((lane + 1) * share, sums.size()); ++p) sum += sums[p].sum;
+        for (size_t p = lane * share; p < std::min((lane + 1) * share, sums.size()); ++p) sum += sums[p].rootSum;
         total += sum;
     }
     return total;
@@ -141,19 +141,23 @@ TEST_CASE("sums over paths are taken in an order that depends on nothing else") 
     Counting counting(form);
     Random random(7);
     std::vector<PathSum> sums = randomSums(random, 1024, 1.0);
-    for (PathSum& s : sums) s.records = 4; // 4096 together: the mean is the sum, whatever division does
-    sums[500].sum = 3e5f;                  // and takes bits from those that are added later
+    for (PathSum& s : sums) s.records = 4; // 4096 together: division by them is exact
+    sums[500].rootSum = 3e5f;              // and takes bits from those that are added later
     const size_t lanes = counting.kernel.workgroupSize();
-    const float expected = sumInFixedOrder(sums, lanes) / 4096.0f;
+    const auto brightness = [&](size_t adding) {
+        const float root = sumInFixedOrder(sums, adding) / 4096.0f;
+        return root * root;
+    };
+    const float expected = brightness(lanes);
     for (int run = 0; run < 3; ++run) {
         counting.run(sums, 10000);
-        CHECK(counting.bench.readState().frameTarget == expected);
+        CHECK(counting.bench.readState().frameBrightness == expected);
     }
-    CHECK(sumInFixedOrder(sums, 1) / 4096.0f != expected); // planted: another order
-    CHECK(sumInFixedOrder(sums, 2 * lanes) / 4096.0f != expected);
+    CHECK(brightness(1) != expected); // planted: another order
+    CHECK(brightness(2 * lanes) != expected);
 }
 
-TEST_CASE("the running mean of targets and the scale follow the scene's brightness") {
+TEST_CASE("the running mean of brightness and the scale follow the scene's brightness") {
     const RecordAccess form = eachForm();
     Counting counting(form);
     reference::Brightness twin;
@@ -167,14 +171,16 @@ TEST_CASE("the running mean of targets and the scale follow the scene's brightne
         counting.run(sums, 1000);
         twin.addFrame(recordsOf(sums), sumOf(sums), largestOf(sums), double(0.9f));
         const gpu::CacheState state = counting.bench.readState();
-        INFO("frame " << frame << ", mean " << twin.mean);
+        INFO("frame " << frame << ", brightness " << twin.brightness);
         // The mean's own rounding, 120 times; the power of two is exact.
-        REQUIRE(std::abs(double(state.meanTarget) / twin.mean - 1.0) < 1e-5);
-        REQUIRE(std::abs(double(state.frameTarget) / twin.frameMean - 1.0) < 1e-5);
+        REQUIRE(std::abs(double(state.brightness) / twin.brightness - 1.0) < 1e-5);
+        REQUIRE(std::abs(double(state.frameBrightness) / twin.frameBrightness - 1.0) < 1e-5);
         REQUIRE(double(state.largestTarget) == twin.largest);
         REQUIRE(state.frames == twin.frames);
         REQUIRE(double(state.scale) == twin.scale);
-        REQUIRE((twin.mean * twin.scale > 0.249 && twin.mean * twin.scale < 4.01));
+        REQUIRE(double(state.rescaling) == twin.rescaling);
+        const double scaled = twin.brightness * twin.scale;
+        REQUIRE((scaled > 0.249 && scaled < 4.01));
         (before == twin.scale ? stays : moves)++;
     }
     CHECK(moves >= 5);
@@ -183,12 +189,12 @@ TEST_CASE("the running mean of targets and the scale follow the scene's brightne
 
 TEST_CASE("the scale stays from a quarter to four, and moves beyond") {
     Counting counting(RecordAccess::Texel);
-    const auto scaleAfter = [&](float mean) {
+    const auto scaleAfter = [&](float brightness) {
         counting.bench.set(stateOf(1.0));
-        counting.run({{1, mean, mean}}, 10);
+        counting.run({{1, std::sqrt(brightness), brightness}}, 10);
         return counting.bench.readState().scale;
     };
-    for (const float mean : {0.25f, 1.0f, 4.0f}) CHECK(scaleAfter(mean) == 1.0f);
+    for (const float brightness : {0.25f, 1.0f, 4.0f}) CHECK(scaleAfter(brightness) == 1.0f);
     CHECK(scaleAfter(0.249f) == 4.0f);
     CHECK(scaleAfter(4.01f) == 0.25f);
     CHECK(scaleAfter(1e-10f) == std::exp2(33.0f));
@@ -206,10 +212,37 @@ TEST_CASE("a frame without records leaves the mean and the scale as they are") {
         counting.run(std::vector<PathSum>(paths), 1000);
         const gpu::CacheState after = counting.bench.readState();
         CHECK(after.scale == before.scale);
-        CHECK(after.meanTarget == before.meanTarget);
+        CHECK(after.brightness == before.brightness);
         CHECK(after.frames == before.frames);
         CHECK(after.largestTarget == 0.0f); // of the last frame
         CHECK(counting.bench.counter(gpu::kRecordCounter) == 0);
+    }
+}
+
+TEST_CASE("with the scale the last layer changes, so that predictions keep their meaning") {
+    const RecordAccess form = eachForm();
+    CacheBench bench(form);
+    Random random(13);
+    std::vector<float> before(256);
+    for (float& w : before) w = static_cast<float>(2.0 * random.uniform() - 1.0);
+    for (const float rescaling : {1.0f, 8.0f, 0.0625f}) {
+        const Buffer values = makeBuffer(bench.device, "values", before),
+                     averages = makeBuffer(bench.device, "averages", before);
+        gpu::CacheState state = stateOf(4.0);
+        state.rescaling = rescaling;
+        bench.set(state);
+        FrameGraph graph(bench.device);
+        graph.pass(bench.kernel(kernels::rescale_outputs))
+            .read(bench.state)
+            .readWrite(values)
+            .readWrite(averages)
+            .push(gpu::RescaleParams{60}) // of 64
+            .dispatch(64);
+        graph.execute();
+        std::vector<float> expected = before;
+        for (size_t i = 0; i < 240; ++i) expected[i] *= rescaling;
+        CHECK(download<float>(bench.device, values, 256) == expected);
+        CHECK(download<float>(bench.device, averages, 256) == expected);
     }
 }
 
@@ -401,7 +434,7 @@ TEST_CASE("bad radiance in training vertices is dropped and counted, and everyth
         CHECK(std::isfinite(counts.training.loss));
         CHECK(isFinite(cache.trainer().parameters(Weights::Raw)));
         CHECK(isFinite(cache.trainer().parameters(Weights::Ema)));
-        CHECK((counts.state.meanTarget > 0.1f && counts.state.meanTarget < 20.0f));
+        CHECK((counts.state.brightness > 0.1f && counts.state.brightness < 20.0f));
         CHECK((counts.state.scale >= 0.125f && counts.state.scale <= 4.0f));
     }
     CHECK(dropped >= 50);

@@ -16,6 +16,8 @@ Adaptation::Adaptation(const AdaptationConfig& config, uint32_t steps, double em
     , emaDecay_(emaDecay) {}
 
 void Adaptation::observe(float meanPrediction, float meanTarget) {
+    const uint32_t steps = effort().steps;
+    taken_ += steps == 0 ? steps_ : steps;
     const float ratio = (std::max(meanPrediction, 0.0f) + kDark) / (std::max(meanTarget, 0.0f) + kDark);
     const float disagreement = std::abs(std::log(ratio));
     const float range = std::max(config_.full - config_.threshold, 1e-6f);
@@ -35,6 +37,13 @@ TrainingEffort Adaptation::effort() const {
     const double shortest = std::min<double>(config_.shortestEma, emaDecay_);
     effort.emaDecay = 1.0 - (1.0 - emaDecay_) * std::pow((1.0 - shortest) / (1.0 - emaDecay_), urgency_);
     return effort;
+}
+
+float Adaptation::unbiasedShare(float configured) const {
+    if (!config_.on || configured == 0.0f) return configured;
+    const auto youth = static_cast<double>(config_.youth);
+    const double young = youth / std::max(youth + static_cast<double>(taken_), 1.0);
+    return std::max({configured, static_cast<float>(young), urgency_});
 }
 
 } // namespace irradia

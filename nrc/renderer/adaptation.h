@@ -1,5 +1,7 @@
 // How much is learned per frame: more, and forgotten faster, while what the cache predicts and what paths
-// find disagree (a lamp was switched, the scene was entered), and as configured when they agree.
+// find disagree (a lamp was switched, the scene was entered), and as configured when they agree. Self-training
+// hands light on by a bounce each time it has learned the last one: while the cache is young, or all is
+// urgent, more of the training paths bring in light themselves.
 #pragma once
 
 #include "nrc/trainer.h"
@@ -15,6 +17,8 @@ struct AdaptationConfig {
     uint32_t mostSteps = 16;  // of optimisation a frame, at urgency 1
     float shortestEma = 0.9f; // decay of the weights' average per step, at urgency 1
     float calming = 0.85f;    // share of the urgency that is left after a frame of agreement
+    // Steps after which half of the suffixes of a young cache train themselves; 0 = as many as ever at once.
+    uint32_t youth = 512;
 };
 
 // Depends on what the frames before have found alone, so that the same frames learn the same.
@@ -25,6 +29,8 @@ public:
 
     void observe(float meanPrediction, float meanTarget); // of a frame that has learned
     TrainingEffort effort() const;                        // of the next
+    // Of suffixes that end by roulette alone, in the next frame: at least `configured`; none if that is none.
+    float unbiasedShare(float configured) const;
     float urgency() const { return urgency_; }            // 0 to 1
 
 private:
@@ -32,6 +38,7 @@ private:
     uint32_t steps_;
     double emaDecay_;
     float urgency_ = 0.0f;
+    uint64_t taken_ = 0; // steps
 };
 
 } // namespace irradia

@@ -58,6 +58,7 @@ void readAdaptation(JsonFields& outer, const std::string& file, AdaptationConfig
         static_cast<float>(fields.number("shortest_ema", config.shortestEma, {0, 1, NumberRange::HighOpen}));
     config.calming =
         static_cast<float>(fields.number("calming", config.calming, {0, 1, NumberRange::HighOpen}));
+    config.youth = fields.integer("youth", config.youth, 0, 1u << 20);
     fields.finish();
 }
 

@@ -4,7 +4,7 @@
 //      "training": {"records": 65536, "min_records": 4096, "steps": 4, "self_training": "Ema",
 //      "uniform_share": 0},
 //      "adaptation": "off", or {"threshold": 0.3, "full": 0.7, "most_steps": 16, "shortest_ema": 0.9,
-//      "calming": 0.85},
+//      "calming": 0.85, "youth": 512},
 //      "factorise": "on", "shown": "Ema", "model": {...}}
 //
 // where every key may be missing; "model" is what nrc/config.h describes, of gpu::kCacheInputs inputs.
@@ -26,7 +26,7 @@ struct NrcConfig {
     float spread = 0.01f;
     float trainingSpread = 0.01f;
     uint32_t endDepth = gpu::kNoDepth;  // number of the vertex at which paths end at the latest
-    float unbiasedShare = 1.0f / 16.0f; // of training paths whose suffix ends by Russian roulette alone
+    float unbiasedShare = 1.0f / 16.0f; // of training paths whose suffix ends by Russian roulette alone; adaptation raises it
     uint32_t suffixBounces = 8; // of a training path, beyond those that --max-bounces gives a rendering path
     // Share of the paths that go on past their query, so that the picture is unbiased (the cache is then a
     // control variate); 0 = none.

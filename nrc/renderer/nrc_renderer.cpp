@@ -22,14 +22,13 @@ uint32_t recordsPerFrame(const NrcOptions& options) {
     return std::max(scaled, options.config.minRecords);
 }
 
-// Most of them have one record: the cache is near behind the first vertex.
-uint32_t surfacePathsPerFrame(const NrcOptions& options) {
-    return static_cast<uint32_t>(std::lround(double(options.config.uniformShare) * recordsPerFrame(options)));
+// At most, of a record each: that many tiles, and that many paths from surfaces.
+uint32_t mostTiles(const NrcOptions& options) {
+    return std::min(recordsPerFrame(options), pixelCount(options));
 }
 
-// Of the tiles, at most: each has a record, or nearly.
-uint32_t cameraPathsPerFrame(const NrcOptions& options) {
-    return std::min(recordsPerFrame(options), pixelCount(options));
+uint32_t mostSurfacePaths(const NrcOptions& options) {
+    return static_cast<uint32_t>(std::lround(double(options.config.uniformShare) * recordsPerFrame(options)));
 }
 
 // How far away those are who see the surfaces: the mean chord of a convex body is 4 V / S (Cauchy).
@@ -43,7 +42,7 @@ CacheOptions cacheOptions(const NrcOptions& options, uint32_t largestWave) {
     cache.model = options.config.model;
     cache.queries = largestWave;
     cache.records = recordsPerFrame(options);
-    cache.trainingPaths = cameraPathsPerFrame(options) + surfacePathsPerFrame(options);
+    cache.trainingPaths = mostTiles(options) + mostSurfacePaths(options);
     cache.steps = options.config.steps;
     cache.factorise = options.config.factorise;
     cache.selfTraining = options.config.selfTraining;
@@ -60,8 +59,8 @@ NrcRenderer::NrcRenderer(Device& device, const GpuScene& scene, const Bounds& bo
     , tracer_(device, scene, cachedPaths(options.paths), profiler)
     , cache_(device, cacheOptions(options, tracer_.largestWave()))
     , adaptation_(options.config.adaptation, options.config.steps, options.config.model.optimizer.emaDecay)
-    , tiles_(wantedTiles())
-    , surfacePaths_(scene.triangles > 0 ? surfacePathsPerFrame(options) : 0) {}
+    , hasSurfaces_(scene.triangles > 0)
+    , training_(wantedPaths()) {}
 
 std::vector<Device::PlannedBuffer> NrcRenderer::plannedBuffers(const Device& device,
                                                                const NrcOptions& options) {
@@ -89,9 +88,9 @@ void NrcRenderer::renderFrame(const Camera& camera, uint32_t index) {
     }
     if (learns_) {
         graph.section("train");
-        for (const Wave& wave : tracer_.surfaceWaves(surfacePaths_))
+        for (const Wave& wave : tracer_.surfaceWaves(training_.surfaces))
             tracer_.traceSurfaceWave(wave, index, meanChord(bounds_), surfacePaths());
-        cache_.learn(graph, trainingPaths(), adaptation_.effort());
+        cache_.learn(graph, training_.count(), adaptation_.effort());
         graph.section("");
     }
     graph.execute();
@@ -99,26 +98,28 @@ void NrcRenderer::renderFrame(const Camera& camera, uint32_t index) {
     counts_ = cache_.counts();
     if (learns_ && counts_.records > 0) {
         adaptation_.observe(counts_.training.meanPrediction, counts_.training.meanTarget);
-        const double records = double(counts_.records) + counts_.skippedRecords - surfacePaths_;
-        recordsPerPath_ = std::max(records, 1.0) / tiles_.count();
+        const double records = double(counts_.records) + counts_.skippedRecords;
+        recordsPerPath_ = std::max(records, 1.0) / training_.count();
     }
-    tiles_ = wantedTiles();
+    training_ = wantedPaths();
 }
 
 void NrcRenderer::forgetFilm() {
     tracer_.forgetFilm();
 }
 
-// As many tiles, as square as the picture allows, as give the wanted number of records, less those from
-// surfaces, if paths are as long as in the frame before.
-NrcRenderer::Tiles NrcRenderer::wantedTiles() const {
+// As many as give the wanted number of records if they are as long as in the frame before; tiles as square as the picture
+// allows.
+NrcRenderer::TrainingPaths NrcRenderer::wantedPaths() const {
     const double width = options_.paths.width, height = options_.paths.height;
-    const double most = cameraPathsPerFrame(options_);
-    const double records = recordsPerFrame(options_) - surfacePathsPerFrame(options_);
-    const double paths = std::clamp(records / recordsPerPath_, 1.0, most);
-    const double x = std::clamp(std::floor(std::sqrt(paths * width / height)), 1.0, std::min(width, most));
-    const double y = std::clamp(std::floor(paths / x), 1.0, std::min(height, std::floor(most / x)));
-    return {static_cast<uint32_t>(x), static_cast<uint32_t>(y)};
+    const double most = mostTiles(options_);
+    const double paths = recordsPerFrame(options_) / recordsPerPath_;
+    const double surfaces = hasSurfaces_ ? std::round(options_.config.uniformShare * paths) : 0.0;
+    const double tiles = std::clamp(paths - surfaces, 1.0, most);
+    const double x = std::clamp(std::floor(std::sqrt(tiles * width / height)), 1.0, std::min(width, most));
+    const double y = std::clamp(std::floor(tiles / x), 1.0, std::min(height, std::floor(most / x)));
+    return {static_cast<uint32_t>(x), static_cast<uint32_t>(y),
+            std::min(static_cast<uint32_t>(surfaces), mostSurfacePaths(options_))};
 }
 
 // All of such a path is suffix.
@@ -140,11 +141,11 @@ CachePaths NrcRenderer::cachePaths(bool train) const {
     rule.endDepth = config.endDepth;
     rule.deepest = tracer_.deepestRay();
     rule.lastDepth = rule.deepest + config.suffixBounces;
-    rule.tilesX = train ? tiles_.x : 0;
-    rule.tilesY = train ? tiles_.y : 0;
+    rule.tilesX = train ? training_.tilesX : 0;
+    rule.tilesY = train ? training_.tilesY : 0;
     rule.width = options_.paths.width;
     rule.height = options_.paths.height;
-    rule.unbiasedShare = config.unbiasedShare;
+    rule.unbiasedShare = adaptation_.unbiasedShare(config.unbiasedShare);
     rule.residualShare = config.residualShare;
     rule.trainingSpread = config.trainingSpread;
     return {cache_.queries(),

@@ -34,15 +34,15 @@ public:
     const Adaptation& adaptation() const { return adaptation_; }
 
 private:
-    struct Tiles {
-        uint32_t x = 0, y = 0;
-        uint32_t count() const { return x * y; }
+    // Training paths of a frame: one a tile of the picture, and those that start at the scene's surfaces.
+    struct TrainingPaths {
+        uint32_t tilesX = 0, tilesY = 0, surfaces = 0;
+        uint32_t count() const { return tilesX * tilesY + surfaces; }
     };
 
     CachePaths cachePaths(bool train) const;
     CachePaths surfacePaths() const;
-    Tiles wantedTiles() const;
-    uint32_t trainingPaths() const { return tiles_.count() + surfacePaths_; } // of this frame
+    TrainingPaths wantedPaths() const;
 
     NrcOptions options_;
     Bounds bounds_;
@@ -50,9 +50,9 @@ private:
     RadianceCache cache_;
     CacheCounts counts_;
     Adaptation adaptation_;
-    double recordsPerPath_ = 2.0; // of the last frame's paths from the camera
-    Tiles tiles_;                 // of this frame: one training path each
-    uint32_t surfacePaths_;       // of a frame: training paths that start at the scene's surfaces
+    bool hasSurfaces_;
+    double recordsPerPath_ = 4.0; // of the last frame's training paths
+    TrainingPaths training_;      // of this frame
     bool learns_ = true;
 };
 

@@ -3,6 +3,7 @@
 // A place among the records for each training path's, by a prefix sum, and what the frame's targets tell of the scene's
 // brightness. One workgroup, sums in a fixed order.
 #include "lib/kernel.glsl"
+#include "lib/math.glsl"
 #include "shared/cache.h"
 
 COUNTERS(0, counters);
@@ -14,20 +15,24 @@ layout(push_constant) uniform Push { RecordsParams params; };
 shared uint counts[gl_WorkGroupSize.x];
 shared float sums[gl_WorkGroupSize.x], largest[gl_WorkGroupSize.x];
 
-// The scale is a power of two that brings the mean target near 1, and stays while it is within a factor of 4: each change
-// changes what all predictions mean.
-void updateScale(uint records, float sum, float most) {
+// The scale is a power of two that brings the targets' brightness near 1, and stays while it is within a factor of 4. Roots,
+// since of plain luminance a few huge targets would decide the mean. Until a network has learned there is nothing that
+// could keep its meaning.
+void updateScale(uint records, float rootSum, float most) {
     cacheState.largestTarget = most;
+    cacheState.rescaling = 1.0;
     if (records == 0u) return;
-    float mean = sum / float(records);
-    cacheState.frameTarget = mean;
-    cacheState.meanTarget = cacheState.frames == 0u ? mean : mix(mean, cacheState.meanTarget, params.meanDecay);
+    cacheState.frameBrightness = square(rootSum / float(records));
+    float age = float(cacheState.frames);
+    cacheState.brightness = mix(cacheState.frameBrightness, cacheState.brightness, min(params.meanDecay, age / (age + 1.0)));
     ++cacheState.frames;
-    float scaled = cacheState.meanTarget * cacheState.scale;
-    bool isUsable = cacheState.meanTarget > 1e-20 && cacheState.meanTarget < 1e15;
+    float scaled = cacheState.brightness * cacheState.scale;
+    bool isUsable = cacheState.brightness > 1e-20 && cacheState.brightness < 1e15;
     if (isUsable && (scaled < 0.25 || scaled > 4.0)) {
-        int exponent = -int(round(log2(cacheState.meanTarget)));
-        cacheState.scale = uintBitsToFloat(uint(127 + exponent) << 23u);
+        int exponent = -int(round(log2(cacheState.brightness)));
+        float scale = uintBitsToFloat(uint(127 + exponent) << 23u);
+        if (cacheState.frames > 1u) cacheState.rescaling = scale / cacheState.scale;
+        cacheState.scale = scale;
     }
 }
 

@@ -11,7 +11,7 @@ layout(set = 0, binding = 2, std430) buffer TrainingVertices { vec4 trainingVert
 RECORDS_READ(3, queries); // of the training paths
 RECORDS_READ(4, results);
 layout(set = 0, binding = 5, std430) readonly buffer State { CacheState cacheState; };
-RECORDS_WRITE(6, pathSums); // per path: records (uint), sum and largest of the targets' luminance
+RECORDS_WRITE(6, pathSums); // per path: records (uint), of the targets' luminance the roots' sum, and the largest
 layout(push_constant) uniform Push { RecordsParams params; };
 #include "nrc/prediction.glsl"
 
@@ -20,18 +20,19 @@ void main() {
     if (path >= params.paths) return;
     uint vertices = trainingPaths[path * kTrainingPathVectors].w;
     vec3 l = vec3(0.0);
-    if (trainingPaths[path * kTrainingPathVectors + 1u].w != 0u) {
+    bool endsInCache = trainingPaths[path * kTrainingPathVectors + 1u].w != 0u;
+    if (endsInCache && cacheState.frames > 0u) { // before, the cache knows nothing
         vec3 factor = REFLECTANCE(queries, path);
         l = toRadiance(uintBitsToFloat(loadRecord(results, path).rgb), params.factorise != 0u ? factor : vec3(1.0));
     }
-    float sum = 0.0, largest = 0.0;
+    float rootSum = 0.0, largest = 0.0;
     for (uint i = vertices; i > 0u; --i) {
         uint at = (path * kMaxTrainingVertices + i - 1u) * kTrainingVertexVectors;
         l = trainingVertices[at + kGathered].rgb + trainingVertices[at + kThroughput].rgb * l;
         trainingVertices[at + kGathered].rgb = l;
         float y = luminance(l);
-        sum += abs(y) < 1e15 ? y : 0.0; // what is not finite the trainer drops and counts
+        rootSum += y >= 0.0 && y < 1e15 ? sqrt(y) : 0.0; // what is not finite the trainer drops and counts
         largest = max(largest, y);
     }
-    storeRecord(pathSums, path, uvec4(vertices, floatBitsToUint(sum), floatBitsToUint(largest), 0u));
+    storeRecord(pathSums, path, uvec4(vertices, floatBitsToUint(rootSum), floatBitsToUint(largest), 0u));
 }

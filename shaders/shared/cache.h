@@ -78,14 +78,18 @@ SHARED_CONST uint kThroughput = kCacheInputQuads + 1u;
 
 // State of the cache between frames.
 struct CacheState {
-    float scale;          // what the network predicts is radiance * scale: a power of two
-    float meanTarget;     // running mean of the targets' luminance
-    uint frames;          // with records
-    float frameTarget;    // mean of the last frame's
-    float framePrediction; // mean luminance of the predictions at the same vertices, where known; else 0
-    float largestTarget;  // of the last frame, luminance
+    float scale;           // what the network predicts is radiance * scale: a power of two
+    float rescaling;       // the scale's change in the last frame, a factor: that of the network's last layer
+    uint frames;           // with records
+    float brightness;      // running mean of frameBrightness
+    float frameBrightness; // of the last frame's targets: the square of the mean square root of their luminance
+    float largestTarget;   // of the last frame, luminance
     uint unused0;
     uint unused1;
+};
+
+struct RescaleParams {
+    uint quads; // of the last layer's weights
 };
 
 struct ResolveParams {
@@ -96,7 +100,7 @@ struct RecordsParams {
     uint paths;    // training paths
     uint capacity; // of the records
     uint factorise;
-    float meanDecay; // of the running mean of targets, per frame
+    float meanDecay; // of the running mean of the brightness, per frame
 };
 
 SHARED_END

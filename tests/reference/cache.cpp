@@ -157,13 +157,20 @@ std::vector<Vec3> targets(const TrainingPath& path, const Vec3& last) {
     return result;
 }
 
-void Brightness::addFrame(uint32_t records, double sum, double most, double decay) {
+void Brightness::addFrame(uint32_t records, double rootSum, double most, double decay) {
     largest = most;
+    rescaling = 1.0;
     if (records == 0) return;
-    frameMean = sum / records;
-    mean = frames++ == 0 ? frameMean : decay * mean + (1.0 - decay) * frameMean;
-    const bool isFar = mean * scale < 0.25 || mean * scale > 4.0;
-    if (isFar && mean > 1e-20) scale = std::exp2(-std::round(std::log2(mean)));
+    frameBrightness = std::pow(rootSum / records, 2.0);
+    const double kept = std::min(decay, frames / (frames + 1.0));
+    brightness = kept * brightness + (1.0 - kept) * frameBrightness;
+    const bool isFar = brightness * scale < 0.25 || brightness * scale > 4.0;
+    if (isFar && brightness > 1e-20) {
+        const double before = scale;
+        scale = std::exp2(-std::round(std::log2(brightness)));
+        if (frames > 0) rescaling = scale / before;
+    }
+    ++frames;
 }
 
 } // namespace irradia::reference

@@ -99,10 +99,10 @@ Vec3 toTarget(const Vec3& radiance, const Vec3& factor, double scale); // 0 wher
 std::vector<Vec3> targets(const TrainingPath& path, const Vec3& last);
 
 struct Brightness {
-    double scale = 1.0, mean = 0.0, frameMean = 0.0, largest = 0.0;
+    double scale = 1.0, rescaling = 1.0, brightness = 0.0, frameBrightness = 0.0, largest = 0.0;
     uint32_t frames = 0;
 
-    void addFrame(uint32_t records, double sum, double most, double decay);
+    void addFrame(uint32_t records, double rootSum, double most, double decay);
 };
 
 } // namespace irradia::reference

@@ -29,7 +29,7 @@ std::string contentOf(const std::filesystem::path& file) {
 
 Run bench(const std::string& arguments) {
     const TemporaryFolder folder;
-    const std::string command = IRRADIA_BIN_DIR "/irradia bench " + arguments + " --device cpu" + " >" +
+    const std::string command = IRRADIA_BIN_DIR "/irradia bench " + arguments + " >" +
                                 (folder / "out").string() + " 2>" + (folder / "err").string();
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contentOf(folder / "out"),

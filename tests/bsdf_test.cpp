@@ -18,7 +18,10 @@ using test::BsdfEvaluation;
 
 namespace {
 
-constexpr double kRounding = 0x1p-24; // of one operation in single precision, relative
+// Of one operation in single precision, relative: half a unit on CPUs; Vulkan lets a GPU's division be off by 2.5.
+double rounding() {
+    return test::validatedDevice().isCpu() ? 0x1p-24 : 5 * 0x1p-24;
+}
 
 reference::Ggx lobeOf(const BsdfCase& c) {
     return {reference::Bsdf(c.material).alpha()};
@@ -54,11 +57,11 @@ Sweep randomSweep(size_t count) {
     return sweep;
 }
 
-// Relative error of D, and so of f and of the density: rounding v + l turns h by about kRounding / |v + l|,
+// Relative error of D, and so of f and of the density: rounding v + l turns h by about rounding() / |v + l|,
 // and a turn by delta changes 1 / (alpha^2 + tan^2)^2 by at most 2 delta / alpha. All else is a few dozen
 // roundings.
 double lobeTolerance(const BsdfCase& c, const glm::vec3& l) {
-    return kRounding * (64.0 + 8.0 / (lobeOf(c).alpha * glm::length(Vec3(c.view) + Vec3(l))));
+    return rounding() * (64.0 + 8.0 / (lobeOf(c).alpha * glm::length(Vec3(c.view) + Vec3(l))));
 }
 
 // s of one direction, as reference::Bsdf has it.
@@ -193,7 +196,7 @@ TEST_CASE("f(v, l) = f(l, v)") {
         const Vec3 a = Vec3(forth[i].fCos) / l.z, b = Vec3(back[i].fCos) / v.z;
         INFO("case " << i << ": " << a.x << " and " << b.x);
         // V and L are unit vectors but for rounding, so V.H and L.H differ by a rounding over |V + L|.
-        const double tolerance = kRounding * (64.0 + 16.0 / glm::length(v + l));
+        const double tolerance = rounding() * (64.0 + 16.0 / glm::length(v + l));
         REQUIRE(reference::maxComponent(glm::abs(a - b)) <= tolerance * reference::maxComponent(a));
     }
 }

@@ -37,7 +37,7 @@ std::vector<glm::vec3> light(const Rgba8Image& image) {
 
 double flipOf(const TemporaryFolder& folder, const std::string& network) {
     fitImage(folder, std::string(kPicture) +
-                         " -o learned.exr --steps 200 --batch 1024 --device cpu "
+                         " -o learned.exr --steps 200 --batch 1024 "
                          "--progress none --network " IRRADIA_SOURCE_DIR "/samples/fit_image/networks/" +
                          network + ".json");
     const LayeredImage learned = readExr(folder / "learned.exr");

@@ -43,7 +43,7 @@ Run fitImage(const TemporaryFolder& folder, const std::string& arguments) {
 }
 
 Run learn(const TemporaryFolder& folder, const std::string& arguments) {
-    const Run run = fitImage(folder, arguments + " --device cpu --progress none");
+    const Run run = fitImage(folder, arguments + " --progress none");
     INFO(arguments << "\n" << run.err);
     REQUIRE(run.code == 0);
     return run;

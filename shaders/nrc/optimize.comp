@@ -34,17 +34,21 @@ void heal(inout Parameters p) {
     atomicAdd(state.damagedParameters, 4u - count(sound));
 }
 
+// Written out: mix(now, before, decay) may be taken as now - decay now + decay before, which leaves 24 bits of `now` but
+// not of (1 - decay) now.
+vec4 decayed(vec4 before, vec4 now, float decay) { return (1.0 - decay) * now + decay * before; }
+
 void update(inout Parameters p, vec4 gradient) {
     bvec4 use = within(gradient, kGradientLimit);
     if (params.sparse != 0u) use = both(use, notEqual(gradient, vec4(0.0)));
     vec4 g = state.clipScale * gradient + params.l2 * p.value;
-    vec4 first = mix(g, p.first, params.beta1);
-    vec4 second = mix(g * g, p.second, params.beta2);
+    vec4 first = decayed(p.first, g, params.beta1);
+    vec4 second = decayed(p.second, g * g, params.beta2);
     vec4 change = first / state.eta1 / (sqrt(second / state.eta2) + params.epsilon);
     p.value = mix(p.value, p.value - params.learningRate * state.learningRateFactor * change, use);
     p.first = mix(p.first, first, use);
     p.second = mix(p.second, second, use);
-    p.average = ((1.0 - params.emaDecay) * p.value + params.emaDecay * state.etaEmaBefore * p.average) / state.etaEma;
+    p.average = decayed(state.etaEmaBefore * p.average, p.value, params.emaDecay) / state.etaEma;
 }
 
 void main() {

@@ -44,12 +44,16 @@ TriangleAttributes loadAttributes(uint primitive, vec2 b) {
     return result;
 }
 
+// From 0 to n - 1. The quotient may be one off, and is on GPUs, whose division need not be exact for multiples of n.
+int positiveRemainder(int i, int n) {
+    int r = i - n * int(floor(float(i) / float(n)));
+    return r < 0 ? r + n : (r >= n ? r - n : r);
+}
+
 int wrapTexel(int i, int size, uint mode) {
-    int repeated = i - size * int(floor(float(i) / float(size)));
-    repeated = clamp(repeated, 0, size - 1); // the division rounds at large i
-    int period = 2 * size;
-    int mirrored = i - period * int(floor(float(i) / float(period)));
-    mirrored = clamp(mirrored < size ? mirrored : period - 1 - mirrored, 0, size - 1);
+    int repeated = positiveRemainder(i, size);
+    int folded = positiveRemainder(i, 2 * size);
+    int mirrored = min(folded, 2 * size - 1 - folded);
     int clamped = clamp(i, 0, size - 1);
     return mode == 0u ? repeated : (mode == 1u ? mirrored : clamped);
 }

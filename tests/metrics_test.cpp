@@ -105,6 +105,21 @@ TEST_CASE("a reference must be finite") {
     test::expectError(ExitCode::Internal, "6", [&] { compareImages(3, 3, ones, ones); });
 }
 
+TEST_CASE("errors are red above and blue below the reference, by their share of it") {
+    const std::vector<glm::vec3> reference{
+        glm::vec3(0.99f), glm::vec3(0.99f), {0, 1, 0}, glm::vec3(0), glm::vec3(1)},
+        test{glm::vec3(1.49f), glm::vec3(0.24f), {0, 1, 0}, glm::vec3(0.02f), {1, kNan, 1}};
+    const double expected[][2] = {{0.5, 0}, {0, 0.75}, {0, 0}, {2, 0}, {0, 0}};
+    const auto signs = errorSigns(5, 1, test, reference);
+    for (size_t i = 0; i < signs.size(); ++i) {
+        INFO("pixel " << i);
+        CHECK_THAT(double(signs[i].r), WithinAbs(expected[i][0], kExact));
+        CHECK(signs[i].g == 0.0f);
+        CHECK_THAT(double(signs[i].b), WithinAbs(expected[i][1], kExact));
+    }
+    test::expectError(ExitCode::BadData, "(4, 0)", [&] { errorSigns(5, 1, reference, test); });
+}
+
 TEST_CASE("FLIP agrees with its authors' program") {
     // Means over the error maps of NVlabs' FLIP 1.6 (C++, LDR, 67.02 pixels per degree), run on these
     // pictures. It works in float with its own rounding of the colour matrices: 5e-5 is the largest

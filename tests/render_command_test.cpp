@@ -2,6 +2,7 @@
 // whole, and bad input ends in one sentence and its exit code.
 #include "engine/image/image.h"
 #include "tests/support/temporary_folder.h"
+#include <algorithm>
 #include <catch2/catch_test_macros.hpp>
 #include <cmath>
 #include <fstream>
@@ -102,6 +103,58 @@ TEST_CASE("stats say what a frame cost") {
     CHECK(std::filesystem::file_size(folder / "o.png") > 100);
 }
 
+TEST_CASE("views show numbers of paths, in grey and as a heat map") {
+    const TemporaryFolder folder;
+    const auto render = [&](const std::string& view) {
+        const std::string file = (folder / "view.exr").string(), png = (folder / "view.png").string();
+        REQUIRE(
+            run("", "render " + kScenes +
+                        "cornell-box.glb --size 16x16 --frames 2 --max-bounces 3 --method nrc --preset fast"
+                        " --view " +
+                        view + " --png " + png + " -o " + file)
+                .code == 0);
+        return std::pair(readExr(file).rgb(), decodeImage(folder.read("view.png"), png).pixels);
+    };
+    const auto [length, shown] = render("path-length");
+    const auto [heat, shownHeat] = render("bounce-heat");
+    float longest = 0.0f;
+    for (size_t i = 0; i < length.size(); ++i) {
+        longest = std::max(longest, length[i].r);
+        CHECK(length[i] == glm::vec3(length[i].r));
+        CHECK(heat[i] == heatColour(length[i].r));
+    }
+    CHECK(longest >= 2.0f);
+    CHECK(longest <= 4.0f);
+    CHECK(std::ranges::count(shown, 255) > 256); // beside alpha, the longest
+    CHECK(shownHeat == toDisplay(16, 16, heat).pixels);
+    for (const glm::vec3& pixel : render("end-vertex").first) CHECK(pixel.r <= 3.0f);
+    CHECK(render("training-density").first != length);
+}
+
+TEST_CASE("the sign of the error against a reference") {
+    const TemporaryFolder folder;
+    const auto at = [&](const char* name) { return (folder / name).string(); };
+    const std::string base = "render " + kScenes + "cornell-box.glb --size 16x16 --max-bounces 2 -o ";
+    REQUIRE(run("", base + at("picture.exr")).code == 0);
+    const auto signs = [&](const char* reference) {
+        REQUIRE(run("", base + at("signs.exr") + " --view error-sign --reference " + at(reference)).code ==
+                0);
+        return readExr(at("signs.exr")).rgb();
+    };
+    for (const glm::vec3& pixel : signs("picture.exr")) CHECK(pixel == glm::vec3(0.0f));
+
+    LayeredImage brighter = readExr(at("picture.exr"));
+    const std::vector<glm::vec3> picture = brighter.rgb();
+    for (const char* name : {"R", "G", "B"})
+        for (float& value : brighter.channels.at(name)) value *= 2.0f;
+    writeExr(at("brighter.exr"), brighter);
+    const auto darker = signs("brighter.exr");
+    for (size_t i = 0; i < picture.size(); ++i) {
+        CHECK(darker[i].r == 0.0f);
+        CHECK((darker[i].b > 0.0f) == (picture[i] != glm::vec3(0.0f)));
+    }
+}
+
 TEST_CASE("a scripted change takes place at its frame, and the film begins anew where it is told to") {
     const TemporaryFolder folder;
     const std::string script = (folder / "changes.json").string();
@@ -157,6 +210,11 @@ TEST_CASE("bad input ends in a sentence and an exit code, and leaves the old fil
     const std::string scene = kScenes + "cornell-box.glb";
     const std::string out = (folder / "out.exr").string();
     std::ofstream(out) << "old";
+    const std::string small = (folder / "small.exr").string();
+    LayeredImage pixel;
+    pixel.width = pixel.height = 1;
+    pixel.setRgb("", std::vector{glm::vec3(1.0f)});
+    writeExr(small, pixel);
     const std::pair<std::string, int> cases[] = {
         {"render nowhere.glb -o " + out, 66},
         {"render " + scene + " --size 0x5 -o " + out, 64},
@@ -169,6 +227,11 @@ TEST_CASE("bad input ends in a sentence and an exit code, and leaves the old fil
         {"render " + scene + " --network a.json -o " + out, 64},
         {"render " + scene + " --view prediction -o " + out, 64},
         {"render " + scene + " --method nrc --view nothing -o " + out, 64},
+        {"render " + scene + " --view bounce-heat -o " + out, 64},
+        {"render " + scene + " --view error-sign -o " + out, 64},
+        {"render " + scene + " --reference " + small + " -o " + out, 64},
+        {"render " + scene + " --view error-sign --reference nowhere.exr -o " + out, 66},
+        {"render " + scene + " --view error-sign --reference " + small + " -o " + out, 65},
         {"render " + scene + " --size 16x16 -o " + (folder / "no/such/folder.exr").string(), 74},
         {"render " + scene, 64},
     };

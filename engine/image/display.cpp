@@ -23,4 +23,12 @@ Rgba8Image toDisplay(int width, int height, std::span<const glm::vec3> radiance)
     return image;
 }
 
+glm::vec3 heatColour(float number) {
+    constexpr glm::vec3 kColours[] = {{0, 0, 0}, {0, 0, 1}, {0, 1, 1}, {0, 1, 0}, {1, 1, 0}, {1, 0, 0}};
+    constexpr int kLast = static_cast<int>(std::size(kColours)) - 1;
+    const float at = number < 1.0f ? number : 1.0f + std::log2(number);
+    const int low = std::clamp(static_cast<int>(at), 0, kLast - 1);
+    return glm::mix(kColours[low], kColours[low + 1], std::clamp(at - static_cast<float>(low), 0.0f, 1.0f));
+}
+
 } // namespace irradia

@@ -29,13 +29,6 @@ void checkSizes(int width, int height, std::span<const glm::vec3> test,
              width, height);
 }
 
-void checkReference(int width, std::span<const glm::vec3> reference) {
-    for (size_t i = 0; i < reference.size(); ++i)
-        if (!isFinite(reference[i]))
-            fail(ExitCode::BadData, "the reference is not finite at pixel ({}, {})", i % size_t(width),
-                 i / size_t(width));
-}
-
 // Equal means have ratio 1, black ones included.
 double ratio(double test, double reference) {
     return test == reference ? 1.0 : test / reference;
@@ -48,6 +41,13 @@ double meanFlip(int width, int height, std::span<const glm::vec3> test,
 }
 
 } // namespace
+
+void checkReference(int width, std::span<const glm::vec3> reference) {
+    for (size_t i = 0; i < reference.size(); ++i)
+        if (!isFinite(reference[i]))
+            fail(ExitCode::BadData, "the reference is not finite at pixel ({}, {})", i % size_t(width),
+                 i / size_t(width));
+}
 
 ImageMetrics compareImages(int width, int height, std::span<const glm::vec3> test,
                            std::span<const glm::vec3> reference) {
@@ -81,6 +81,20 @@ ImageMetrics compareImages(int width, int height, std::span<const glm::vec3> tes
             values ? ratio(testLuminance, referenceLuminance) : count,
             meanFlip(width, height, test, reference),
             sum.nonFinite};
+}
+
+std::vector<glm::vec3> errorSigns(int width, int height, std::span<const glm::vec3> test,
+                                  std::span<const glm::vec3> reference) {
+    checkSizes(width, height, test, reference);
+    checkReference(width, reference);
+    std::vector<glm::vec3> signs(test.size(), glm::vec3(0.0f));
+    for (size_t i = 0; i < test.size(); ++i) {
+        if (!isFinite(test[i])) continue;
+        const double r = luminance(reference[i]);
+        const double error = (luminance(test[i]) - r) / (std::abs(r) + kEpsilon);
+        signs[i] = {std::max(error, 0.0), 0.0, std::max(-error, 0.0)};
+    }
+    return signs;
 }
 
 } // namespace irradia

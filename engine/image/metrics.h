@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
+#include <vector>
 
 namespace irradia {
 
@@ -19,5 +20,13 @@ struct ImageMetrics {
 // Both spans hold width * height pixels. r must be finite; throws Error(BadData) otherwise.
 ImageMetrics compareImages(int width, int height, std::span<const glm::vec3> test,
                            std::span<const glm::vec3> reference);
+
+// Of each pixel's luminance (t - r) / (|r| + 0.01): red where t is brighter, blue where it is darker, black
+// where it is not finite. As compareImages otherwise.
+std::vector<glm::vec3> errorSigns(int width, int height, std::span<const glm::vec3> test,
+                                  std::span<const glm::vec3> reference);
+
+// Throws Error(BadData) naming the first pixel that is not finite.
+void checkReference(int width, std::span<const glm::vec3> reference);
 
 } // namespace irradia

@@ -16,13 +16,14 @@ namespace {
 constexpr uint32_t kCpuWave = 1u << 15;
 constexpr uint32_t kGpuWave = 1u << 20;
 
-// What follows from the scene's needs: constants of every kernel that includes path/needs.glsl.
-KernelOptions fitted(const SceneNeeds& needs) {
+// Constants of every kernel that includes path/needs.glsl.
+KernelOptions fitted(const SceneNeeds& needs, uint32_t view) {
     KernelOptions options;
     options.constants = {{gpu::kConstantEnvironment, needs.environment},
                          {gpu::kConstantEmitters, needs.emitters},
                          {gpu::kConstantTextures, needs.textures},
-                         {gpu::kConstantSpecular, needs.specular}};
+                         {gpu::kConstantSpecular, needs.specular},
+                         {gpu::kConstantView, view}};
     return options;
 }
 
@@ -88,7 +89,7 @@ WavefrontPathTracer::WavefrontPathTracer(Device& device, const GpuScene& scene,
     , options_(options)
     , graph_(device, profiler)
     , waveSize_(largestWave(device, options)) {
-    const KernelOptions fit = fitted(scene.needs);
+    const KernelOptions fit = fitted(scene.needs, options.view);
     kernels_.generateCameraRays = Kernel(device, kernels::generate_camera_rays);
     kernels_.beginBounce = Kernel(device, kernels::begin_bounce);
     kernels_.intersectClosest = Kernel(device, kernels::intersect_closest);
@@ -104,7 +105,7 @@ WavefrontPathTracer::WavefrontPathTracer(Device& device, const GpuScene& scene,
     kernels_.intersectShadow = Kernel(device, kernels::intersect_shadow);
     kernels_.addDirectLight =
         Kernel(device, either(kernels::add_direct_light, kernels::add_direct_light_cached));
-    kernels_.updateFilm = Kernel(device, kernels::update_film);
+    kernels_.updateFilm = Kernel(device, kernels::update_film, fit);
     if (scene.areaTable) kernels_.generateSurfaceRays = Kernel(device, kernels::generate_surface_rays, fit);
 
     const uint64_t wave = waveSize_;
@@ -144,8 +145,9 @@ std::vector<Wave> WavefrontPathTracer::surfaceWaves(uint32_t paths) const {
 }
 
 void WavefrontPathTracer::addToFilm(const Wave& wave) {
-    const gpu::FilmParams film{wave.firstPixel, wave.paths, frames_,
-                               1.0f / static_cast<float>(options_.samplesPerFrame)};
+    // Of a frame's samples of a pixel the first alone may train.
+    const uint32_t samples = options_.view == gpu::kViewTrainingDensity ? 1 : options_.samplesPerFrame;
+    const gpu::FilmParams film{wave.firstPixel, wave.paths, frames_, 1.0f / static_cast<float>(samples)};
     graph_.pass(kernels_.updateFilm).read(radiance_).readWrite(film_).push(film).dispatch(wave.paths);
     graph_.cut();
 }
@@ -289,6 +291,7 @@ void WavefrontPathTracer::scatter(const gpu::BounceParams& params, const CachePa
             .write(cache->queryWeights)
             .write(cache->trainingQueries)
             .readWrite(cache->counters)
+            .readWrite(radiance_)
             .push(CachedBounceParams{params, cache->rule});
     else
         pass.push(params);

@@ -16,9 +16,10 @@ struct PathTracerOptions {
     uint32_t maxBounces = 16;     // a path has at most maxBounces + 2 edges, light connection included
     uint32_t samplesPerFrame = 1; // samples of a pixel that make one frame
     uint32_t seed = 1;
-    bool surfaces = false; // gather the AOV layers
-    uint32_t waveSize = 0; // paths in flight; 0 = the device class's default. Changes no result.
-    bool cached = false;   // traceWave is given CachePaths
+    bool surfaces = false;             // gather the AOV layers
+    uint32_t waveSize = 0;             // paths in flight; 0 = the device class's default. Changes no result.
+    bool cached = false;               // traceWave is given CachePaths
+    uint32_t view = gpu::kViewPicture; // what the film shows; all else needs a cache
 };
 
 // Consecutive pixels whose paths are in flight together; path i belongs to pixel firstPixel + i. From

@@ -22,7 +22,7 @@ struct RenderOptions {
 };
 
 // Options of the design that later versions bring: known, and refused in one sentence.
-constexpr const char* kLaterOptions[] = {"--model", "--at", "--camera-path", "--reference", "--checkpoint"};
+constexpr const char* kLaterOptions[] = {"--model", "--at", "--camera-path", "--checkpoint"};
 constexpr const char* kLaterFlags[] = {"--denoise", "--sequence", "--resume"};
 
 struct FrameRange {
@@ -84,9 +84,10 @@ void describe(LayeredImage& image, RenderSession& session, uint32_t frames, uint
     a["irradia.seed"] = std::to_string(request.seed);
     a["irradia.frames"] = fmt::format("{}-{}", endFrame - frames, endFrame);
     a["irradia.options"] =
-        fmt::format("--size {} --spp {} --max-bounces {} --camera '{}' --env '{}' --changes '{}' --view '{}'",
+        fmt::format("--size {} --spp {} --max-bounces {} --camera '{}' --env '{}' --changes '{}' --view '{}' "
+                    "--reference '{}'",
                     request.size, request.samplesPerFrame, request.maxBounces, request.camera,
-                    request.environment, request.changes, request.view);
+                    request.environment, request.changes, request.view, request.reference);
     if (!session.nrc()) return;
     RadianceCache& cache = session.nrc()->cache();
     a["irradia.cache"] =
@@ -102,11 +103,11 @@ void render(const RenderOptions& options) {
     RenderSession session(options.request);
     const uint32_t end = renderFrames(session, options);
 
-    const FilmImage film = session.tracer().readFilm();
+    const FilmImage film = session.readFilm();
     LayeredImage image = toLayers(film);
     describe(image, session, film.frames, end, options.warmup);
     writeExr(options.output, image);
-    if (!options.png.empty()) writePng(options.png, toDisplay(film.width, film.height, film.mean));
+    if (!options.png.empty()) writePng(options.png, session.view().display(film));
     if (!options.stats.empty()) {
         const std::string text = frameStats(session).dump(2) + "\n";
         writeFileAtomically(options.stats,

@@ -1,6 +1,7 @@
 #include "render_session.h"
 
 #include "engine/error.h"
+#include "engine/image/metrics.h"
 #include "engine/scene/area_table.h"
 #include "samples/support/program.h"
 #include <chrono>
@@ -27,38 +28,25 @@ void requireKnownMethod(const std::string& method) {
     fail(ExitCode::Usage, "--method {} is unknown; this version has pt, nrc and cache-view", method);
 }
 
-// What --view shows: the cache at the first hit, in place of the picture.
-struct CacheView {
-    const char* name;
-    Weights weights;
-    bool reflectance;
-};
-constexpr CacheView kCacheViews[] = {{"prediction", Weights::Ema, true},
-                                     {"without-reflectance", Weights::Ema, false},
-                                     {"raw-weights", Weights::Raw, true}};
-
-void applyView(const std::string& name, NrcConfig& config) {
-    std::vector<std::string> names;
-    for (const CacheView& view : kCacheViews) {
-        names.emplace_back(view.name);
-        if (name != view.name) continue;
-        if (!view.reflectance && !config.factorise)
-            fail(ExitCode::Usage, "--view {}: this cache does not factorise its reflectance", name);
-        config.endDepth = 0;
-        config.shown = view.weights;
-        config.showReflectance = view.reflectance;
-        return;
-    }
-    fail(ExitCode::Usage, "--view {} is unknown; there are {}", name, fmt::join(names, ", "));
-}
-
 NrcConfig nrcConfig(const RenderRequest& request) {
     NrcConfig config =
         request.preset.ends_with(".json") ? loadNrcConfig(request.preset) : nrcPreset(request.preset);
     if (!request.network.empty()) config.model = loadModelConfig(request.network);
     if (request.method == "cache-view") config.endDepth = 0;
-    if (!request.view.empty()) applyView(request.view, config);
     return config;
+}
+
+std::vector<glm::vec3> loadReference(const View& view, const std::string& file, glm::uvec2 size) {
+    if (view.isErrorSign && file.empty()) fail(ExitCode::Usage, "--view {} needs a --reference", view.name);
+    if (file.empty()) return {};
+    if (!view.isErrorSign) fail(ExitCode::Usage, "--reference is for --view error-sign");
+    const LayeredImage image = readExr(file);
+    if (glm::uvec2(image.width, image.height) != size)
+        fail(ExitCode::BadData, "{} has {} x {} pixels, but the picture will have {} x {}", file, image.width,
+             image.height, size.x, size.y);
+    const std::vector<glm::vec3> pixels = image.rgb();
+    checkReference(image.width, pixels);
+    return pixels;
 }
 
 void reportScene(const Scene& scene, const std::vector<std::string>& packingWarnings) {
@@ -91,8 +79,9 @@ void addRequestOptions(CLI::App& command, RenderRequest& request) {
         ->capture_default_str();
     command
         .add_option("--view", request.view,
-                    "The cache at the first hit instead of the picture: prediction, without-reflectance, or "
-                    "raw-weights (the latest, not their average)")
+                    fmt::format("Instead of the picture: {}", fmt::join(viewNames(), ", ")))
+        ->group("Method");
+    command.add_option("--reference", request.reference, "EXR of the same size, for --view error-sign")
         ->group("Method");
     command.add_option("--network", request.network, "Model of the cache, a .json file")->group("Method");
     command.add_option("--size", request.size, "Picture, WxH")->group("Method")->capture_default_str();
@@ -123,6 +112,8 @@ RenderSession::RenderSession(const RenderRequest& request)
     : request_(request)
     , size_(parseSize(request.size)) {
     requireKnownMethod(request.method);
+    view_ = findView(request.view);
+    reference_ = loadReference(view_, request.reference, size_);
     request_.device.records = parseRecords(request.records);
     scene_ = loadScene(request.scene);
     const CameraFile chosen = chooseCamera(scene_, request.camera);
@@ -154,11 +145,14 @@ NrcOptions RenderSession::rendererOptions() const {
     options.paths.surfaces = request_.surfaces;
     options.seed = request_.seed;
     const bool hasCache = request_.method != "pt";
-    if (hasCache) options.config = nrcConfig(request_);
+    if (hasCache) {
+        options.config = nrcConfig(request_);
+        view_.applyTo(options);
+    }
     if (!hasCache && !request_.network.empty())
         fail(ExitCode::Usage, "--network is for the methods with a cache; --method pt has none");
-    if (!hasCache && !request_.view.empty())
-        fail(ExitCode::Usage, "--view is for the methods with a cache; --method pt has none");
+    if (!hasCache && view_.needsCache())
+        fail(ExitCode::Usage, "--view {} is for the methods with a cache; --method pt has none", view_.name);
     return options;
 }
 
@@ -200,6 +194,12 @@ double RenderSession::renderFrame(uint32_t index) {
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     profiler_.endFrame(wall);
     return wall;
+}
+
+FilmImage RenderSession::readFilm() const {
+    FilmImage film = tracer().readFilm();
+    view_.finish(film, reference_);
+    return film;
 }
 
 void RenderSession::forgetFilm() {

@@ -6,6 +6,7 @@
 #include "engine/scene/load_scene.h"
 #include "nrc/renderer/nrc_renderer.h"
 #include "scripted_changes.h"
+#include "views.h"
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
@@ -20,7 +21,8 @@ struct RenderRequest {
     uint32_t maxBounces = 16;
     uint32_t seed = 1;
     std::string preset = "balanced"; // of the methods with a cache: a name, or a file
-    std::string view;                // of those methods: prediction, ...; empty = the picture
+    std::string view;                // empty = the picture
+    std::string reference;           // EXR that the view error-sign compares with
     std::string network;             // JSON of nrc/config.h, instead of the preset's model
     std::string camera;
     std::string environment;
@@ -47,6 +49,8 @@ public:
     const RenderRequest& request() const { return request_; }
     const Scene& scene() const { return scene_; }
     Device& device() { return *device_; }
+    const View& view() const { return view_; }
+    FilmImage readFilm() const; // as the view shows it
     const WavefrontPathTracer& tracer() const { return nrc_ ? nrc_->tracer() : *tracer_; }
     NrcRenderer* nrc() { return nrc_.get(); } // null where the method has no cache
     Profiler& profiler() { return profiler_; }
@@ -61,6 +65,8 @@ private:
 
     RenderRequest request_;
     glm::uvec2 size_;
+    View view_;
+    std::vector<glm::vec3> reference_;
     Scene scene_;
     Camera camera_;
     ScriptedChanges changes_;

@@ -17,6 +17,7 @@ struct CachedPath {
     float spread; // square root of the area spread
     bool renders; // what follows is seen
     bool trains;  // what follows is learned from
+    bool counts;  // the vertex, for the view
     vec3 weight;  // of the training path, from its last recorded vertex on
     uint vertices;
 };
@@ -155,12 +156,13 @@ CachedPath arrive(bool alive, uint path, uint pixel, Surface s, vec3 view, float
         c = continuePath(path, distance, cosine, pdf);
     c.trains = alive && c.training != 0u;
     c.renders = alive && (c.flags & kPathEnded) == 0u && params.depth < rule.deepest;
+    bool beforeQuery = c.renders && (c.flags & kPathAsked) == 0u;
+    c.counts = (kView == kViewPathLength && c.renders) || (kView == kViewEndVertex && beforeQuery && params.depth > 0u);
     CacheInputs inputs = inputsOf(s, view);
     bool delta = isDelta(s);
     bool isCached = isInBox(s.position) && !delta;
 
-    bool asks = c.renders && isCached && (c.flags & kPathAsked) == 0u &&
-                (hasSpread(c, rule.boxHigh.w) || params.depth >= rule.endDepth);
+    bool asks = beforeQuery && isCached && (hasSpread(c, rule.boxHigh.w) || params.depth >= rule.endDepth);
     float choice = unitFloat(randomBits(pixel, params.sampleIndex, lightChoiceBlock(params.depth), params.seed).y);
     bool goesOn = choice < rule.residualShare;
     float share = max(rule.residualShare, 1e-6);
@@ -179,6 +181,7 @@ CachedPath arrive(bool alive, uint path, uint pixel, Surface s, vec3 view, float
             c.trains = false;
         } else if (isCached && c.vertices < kMaxTrainingVertices) {
             recordVertex(c, inputs);
+            c.counts = c.counts || kView == kViewTrainingDensity;
         }
     }
     c.spread = asks ? 0.0 : c.spread;

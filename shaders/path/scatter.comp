@@ -26,6 +26,7 @@ RECORDS_WRITE(17, queries);
 RECORDS_WRITE(18, queryWeights);
 RECORDS_WRITE(19, trainingQueries);
 COUNTERS(20, cacheCounters);
+layout(set = 0, binding = 21, std430) buffer Radiance { vec4 radiance[]; };
 #include "shared/cache.h"
 layout(push_constant) uniform Push { BounceParams params; CacheRule rule; };
 #else
@@ -77,6 +78,7 @@ void main() {
 #ifdef WITH_CACHE
     float arrivalPdf = uintBitsToFloat(loadRecord(rays, slot * kRayRecords + 1u).w);
     CachedPath cached = arrive(alive, path, pixel, s, view, uintBitsToFloat(hit.x), arrivalPdf, beta);
+    if (cached.counts) radiance[path].a += 1.0;
     alive = cached.renders || cached.trains;
     vec3 directLight = vec3(0.0);
 #endif

@@ -9,6 +9,14 @@ SHARED_CONST uint kConstantEnvironment = 10u; // the environment is not black
 SHARED_CONST uint kConstantEmitters = 11u;    // there are emissive triangles
 SHARED_CONST uint kConstantTextures = 12u;    // mask of kBaseColorTexture, ...
 SHARED_CONST uint kConstantSpecular = 13u;    // some material has a specular lobe
+SHARED_CONST uint kConstantView = 14u;        // what is shown: kViewPicture, ...
+
+// What the film shows: the picture, or what each path counts in the alpha of its radiance. Vertices of a path are those at which
+// it scatters or asks the cache; the last ray of all only meets emission, and has none.
+SHARED_CONST uint kViewPicture = 0u;
+SHARED_CONST uint kViewEndVertex = 1u;       // number of the vertex that asks the cache (0 = the first), else of the last
+SHARED_CONST uint kViewPathLength = 2u;      // vertices, as far as they are for the picture
+SHARED_CONST uint kViewTrainingDensity = 3u; // vertices recorded for training
 
 // A wave is a run of consecutive pixels; path index i of the wave belongs to pixel firstPixel + i.
 struct CameraParams {

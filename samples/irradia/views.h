@@ -1,0 +1,30 @@
+// What --view shows in place of the picture.
+#pragma once
+
+#include "engine/image/image.h"
+#include "nrc/renderer/nrc_renderer.h"
+
+namespace irradia {
+
+struct View {
+    const char* name = "";
+    uint32_t counted = gpu::kViewPicture; // of each path
+    bool isFirstHit = false;              // the cache there
+    Weights weights = Weights::Ema;       // which it shows,
+    bool reflectance = true;              // and what of it
+    bool isHeatMap = false;
+    bool isErrorSign = false; // against a reference
+
+    bool needsCache() const { return isFirstHit || counted != gpu::kViewPicture; }
+    void applyTo(NrcOptions& options) const;
+    // Makes the view of what was rendered; `reference` where the view needs one.
+    void finish(FilmImage& film, std::span<const glm::vec3> reference) const;
+    // For a screen: white is the largest of counts.
+    Rgba8Image display(const FilmImage& film) const;
+};
+
+std::vector<std::string> viewNames();
+// The picture itself has the name "". Throws Error(Usage) naming those there are.
+const View& findView(const std::string& name);
+
+} // namespace irradia

@@ -51,6 +51,8 @@ EncodingConfig readPart(const Json& json, const std::string& file, const std::st
     config.type = typeOf(fields, kEncodingNames);
     config.dims = fields.integer("n_dims_to_encode", config.dims, 0, 64);
     switch (config.type) {
+    case EncodingType::Empty:
+        break;
     case EncodingType::Identity:
         config.scale = fields.number("scale", config.scale, {-1e6, 1e6});
         config.offset = fields.number("offset", config.offset, {-1e6, 1e6});

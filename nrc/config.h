@@ -14,6 +14,7 @@
 namespace irradia {
 
 enum class EncodingType {
+    Empty, // its inputs are left out: a model sees no more than a scene needs
     Identity,
     Frequency,
     TriangleWave,

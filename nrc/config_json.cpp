@@ -10,6 +10,8 @@ using Json = nlohmann::ordered_json;
 Json partJson(const EncodingConfig& config) {
     Json json{{"otype", nameOf(kEncodingNames, config.type)}, {"n_dims_to_encode", config.dims}};
     switch (config.type) {
+    case EncodingType::Empty:
+        return json;
     case EncodingType::Identity:
         json["scale"] = config.scale;
         json["offset"] = config.offset;

@@ -7,6 +7,7 @@
 namespace irradia {
 
 constexpr EnumName<EncodingType> kEncodingNames[] = {
+    {EncodingType::Empty, "Empty"},
     {EncodingType::Identity, "Identity"},
     {EncodingType::Frequency, "Frequency"},
     {EncodingType::TriangleWave, "TriangleWave"},

@@ -96,18 +96,25 @@ EncodingLayout layOut(const std::vector<EncodingConfig>& parts, uint32_t inputs)
     EncodingLayout layout{inputs, 0, {}};
     std::vector<EncodingSlice> whole;
     uint32_t input = 0;
+    size_t number = 0;
     for (const EncodingConfig& part : resolved(parts, inputs)) {
-        checkPart(part, whole.size());
-        const EncodingSlice slice{part, input, valuesOf(part), layout.encodedQuads};
+        const uint32_t firstInput = input;
         input += part.dims;
+        const size_t at = number++;
+        if (part.type == EncodingType::Empty) continue;
+        checkPart(part, at);
+        const EncodingSlice slice{part, firstInput, valuesOf(part), layout.encodedQuads};
         layout.encodedQuads += slice.quads();
         whole.push_back(slice);
     }
 
+    if (whole.empty()) fail(ExitCode::BadData, "encoding: leaves all inputs out");
+
     std::vector<EncodingSlice> merged;
     for (const EncodingSlice& slice : whole) {
         EncodingSlice* before = merged.empty() ? nullptr : &merged.back();
-        if (before && areAlike(before->config, slice.config) && before->values % 4 == 0) {
+        const bool isNext = before && before->firstInput + before->config.dims == slice.firstInput;
+        if (isNext && areAlike(before->config, slice.config) && before->values % 4 == 0) {
             before->config.dims += slice.config.dims;
             before->values += slice.values;
         } else {

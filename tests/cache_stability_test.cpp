@@ -36,10 +36,10 @@ Scene furnace(float albedo) {
 }
 
 constexpr uint32_t kGroup = 25; // frames whose mean is judged: of 1e5 paths, each off by less than 0.5
-// By then light of 20 bounces and more has come back. What is learned wrong by a share x shows 20 times over
-// at an albedo of 0.95: the fast preset wanders between 0.98 and 1.0.
+// By then light of 20 bounces and more has come back. What is learned wrong by a share x would show 20 times over
+// at an albedo of 0.95 if all were self-trained; of what is, half the suffixes being unbiased, twice.
 constexpr uint32_t kSettled = 400; // frames
-constexpr double kTolerance = 0.05;
+constexpr double kTolerance = 0.02;
 
 struct Course {
     std::vector<double> means; // of groups of frames
@@ -53,12 +53,12 @@ struct Course {
     }
 };
 
-Course render(const Scene& scene, uint32_t frames, uint64_t seed) {
+Course render(const Scene& scene, uint32_t frames, uint64_t seed, const char* preset = "fast") {
     NrcOptions options;
     options.paths.width = options.paths.height = 64;
     options.paths.seed = static_cast<uint32_t>(seed);
     options.seed = seed;
-    options.config = nrcPreset("fast");
+    options.config = nrcPreset(preset);
     CachedScene cached(device(), scene, options);
     Course course;
     for (uint32_t frame = 0; frame < frames; frame += kGroup)
@@ -70,9 +70,10 @@ Course render(const Scene& scene, uint32_t frames, uint64_t seed) {
 } // namespace
 
 TEST_CASE("a closed furnace keeps its radiance while the cache trains itself") {
-    for (uint64_t seed = 1; seed <= (fullSweep() ? 4 : 1); ++seed) {
-        const Course course = render(furnace(kAlbedo), fullSweep() ? 2000 : 500, seed);
-        INFO(fmt::format("seed {}: {:.3f}", seed, fmt::join(course.means, " ")));
+    for (uint64_t run = 0; run < (fullSweep() ? 8 : 1); ++run) {
+        const char* preset = run % 2 == 0 ? "fast" : "balanced";
+        const Course course = render(furnace(kAlbedo), fullSweep() ? 2000 : 500, 1 + run / 2, preset);
+        INFO(fmt::format("{}, seed {}: {:.3f}", preset, 1 + run / 2, fmt::join(course.means, " ")));
         CHECK(course.isStableFrom(kSettled));
         CHECK(course.counts.clampedPredictions == 0);
         CHECK(course.counts.training.droppedRecords == 0);

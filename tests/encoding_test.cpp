@@ -25,6 +25,9 @@ const double kGarbage = std::bit_cast<float>(0x45454545u);
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+EncodingConfig empty(uint32_t dims) {
+    return {.type = EncodingType::Empty, .dims = dims};
+}
 EncodingConfig identity(uint32_t dims, double scale = 1.0, double offset = 0.0) {
     return {.dims = dims, .scale = scale, .offset = offset};
 }
@@ -116,6 +119,7 @@ std::vector<EncodingCase> compositeCases() {
     }
     cases.push_back({{harmonics(1), harmonics(2), harmonics(3), oneBlob(1, 64, true)}, 10});
     cases.push_back({{triangleWave(20, 16), oneBlob(2, 64, false)}, 22});
+    cases.push_back({{triangleWave(3, 12), empty(2), oneBlob(2, 4, false), empty(1), oneBlob(1, 4, false), empty(0)}, 14});
     return cases;
 }
 

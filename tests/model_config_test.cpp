@@ -183,7 +183,7 @@ TEST_CASE("unknown keys are refused by their path") {
 
 TEST_CASE("unknown otypes and names are refused with those there are") {
     checkRefused(R"({"encoding": {"otype": "Fourier"}})",
-                 "encoding.otype must be one of Identity, Frequency");
+                 "encoding.otype must be one of Empty, Identity, Frequency");
     checkRefused(R"({"encoding": {"otype": "Fourier"}})", "not \"Fourier\"");
     checkRefused(R"({"encoding": {}})", "encoding.otype is missing");
     checkRefused(R"({"encoding": {"otype": "Composite", "nested": [{"otype": "Composite"}]}})",

@@ -104,8 +104,11 @@ double errorAgainst(const OptimizerHarness& harness, const reference::Optimizer&
                      worstError(doubles(harness.get(&ParameterGroup::secondMoments)), twin.second),
                      worstError(doubles(harness.get(&ParameterGroup::averages)), twin.average.values)});
 }
-// A step rounds each value a few times by 2^-24; ten times the worst seen.
-constexpr double kTolerance = 2e-6;
+// A step rounds each value a few times by 2^-24; ten times the worst seen on a CPU. Vulkan lets a GPU's division be off by
+// five times as much.
+double tolerance() {
+    return validatedDevice().isCpu() ? 2e-6 : 1e-5;
+}
 
 OptimizerConfig plainConfig() {
     OptimizerConfig config;
@@ -170,7 +173,7 @@ TEST_CASE("steps are those of the twin") {
             harness.step(gradient);
             twin.step(doubles(gradient));
             INFO(name << ", step " << step);
-            CHECK(errorAgainst(harness, twin) <= kTolerance);
+            CHECK(errorAgainst(harness, twin) <= tolerance());
         }
         CHECK(harness.state().steps == 6);
         CHECK(harness.state().clippedSteps == twin.clippedSteps);
@@ -199,10 +202,10 @@ TEST_CASE("a wrong setting or gradient is found") {
     };
     using Twin = reference::Optimizer;
     using Gradient = std::vector<double>;
-    REQUIRE(errorWith([](Twin&, Gradient&) {}) <= kTolerance);
+    REQUIRE(errorWith([](Twin&, Gradient&) {}) <= tolerance());
     const auto isFound = [&](const char* fault, auto plant) {
         INFO(fault);
-        CHECK(errorWith(plant) > 10.0 * kTolerance);
+        CHECK(errorWith(plant) > 10.0 * tolerance());
     };
     isFound("beta1", [](Twin& t, Gradient&) { t.settings.beta1 = 0.91; });
     isFound("beta2", [](Twin& t, Gradient&) { t.settings.beta2 = 0.999; });
@@ -230,7 +233,7 @@ TEST_CASE("averages are their closed form") {
             std::vector<double> expected;
             for (uint32_t i = 0; i < kAll; ++i) expected.push_back(value(before[i], after[i]));
             INFO("alpha " << decay << ", step " << harness.state().steps);
-            CHECK(worstError(doubles(harness.get(&ParameterGroup::averages)), expected) <= kTolerance);
+            CHECK(worstError(doubles(harness.get(&ParameterGroup::averages)), expected) <= tolerance());
         };
         const double alpha = static_cast<float>(decay);
         // What stands there before the first step is replaced by it.
@@ -277,7 +280,7 @@ TEST_CASE("an average whose decay changes is its closed form, without bias") {
         for (double& value : expected) value /= sum;
         const double error = worstError(doubles(harness.get(&ParameterGroup::averages)), expected);
         INFO(history.size() << " steps, error " << error);
-        CHECK(error <= kTolerance);
+        CHECK(error <= tolerance());
         CHECK(std::abs(harness.state().etaEma - sum) <= 1e-6);
     }
 }
@@ -373,7 +376,7 @@ TEST_CASE("a derivative that is no number leaves its parameter and the norm alon
             twin.step(used);
         }
         INFO(bad);
-        CHECK(errorAgainst(harness, twin) <= kTolerance);
+        CHECK(errorAgainst(harness, twin) <= tolerance());
         CHECK(harness.state().damagedParameters == 0);
         CHECK(harness.state().clippedSteps == twin.clippedSteps);
 

@@ -13,6 +13,8 @@ constexpr double kUlp = 0x1p-23; // of 1 in single precision
 double allowance(const EncodingTwin::Part& part, double finestScale) {
     const EncodingConfig& c = part.config;
     switch (c.type) {
+    case EncodingType::Empty:
+        return 0.0;
     case EncodingType::Identity: // a product and a sum of numbers below 4
         return 2.0 * kUlp;
     case EncodingType::Frequency: // of numbers below 2 before the sine, whose slope is pi / 2, and in its sum

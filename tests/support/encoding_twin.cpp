@@ -25,6 +25,8 @@ Values inputsOf(const EncodingTwin::Part& made, const Values& x) {
 Values valuesOf(const EncodingTwin::Part& made, const Values& x, const Values& features) {
     const EncodingConfig& c = made.config;
     switch (c.type) {
+    case EncodingType::Empty:
+        return {};
     case EncodingType::Identity:
         return reference::identity(x, c.scale, c.offset);
     case EncodingType::Frequency:

@@ -7,14 +7,10 @@
 namespace irradia {
 
 constexpr EnumName<EncodingType> kEncodingNames[] = {
-    {EncodingType::Empty, "Empty"},
-    {EncodingType::Identity, "Identity"},
-    {EncodingType::Frequency, "Frequency"},
-    {EncodingType::TriangleWave, "TriangleWave"},
-    {EncodingType::OneBlob, "OneBlob"},
-    {EncodingType::SphericalHarmonics, "SphericalHarmonics"},
-    {EncodingType::DenseGrid, "DenseGrid"},
-    {EncodingType::SparseGrid, "SparseGrid"},
+    {EncodingType::Empty, "Empty"},         {EncodingType::Identity, "Identity"},
+    {EncodingType::Frequency, "Frequency"}, {EncodingType::TriangleWave, "TriangleWave"},
+    {EncodingType::OneBlob, "OneBlob"},     {EncodingType::SphericalHarmonics, "SphericalHarmonics"},
+    {EncodingType::DenseGrid, "DenseGrid"}, {EncodingType::SparseGrid, "SparseGrid"},
     {EncodingType::HashGrid, "HashGrid"},
 };
 

@@ -15,7 +15,7 @@ struct NetworkKernels {
     uint32_t forwardRows = 0; // likewise, forward and backward
     uint32_t weightBlocks = 0;
     uint32_t weightBlocksPerGroup = 1;
-    uint32_t sharedBytes = 0;    // of a workgroup, the most of all kernels
+    uint32_t sharedBytes = 0; // of a workgroup, the most of all kernels
 
     uint32_t inferGroups(uint32_t rows) const { return (rows + inferRows - 1) / inferRows; }
     uint32_t forwardGroups(uint32_t rows) const { return (rows + forwardRows - 1) / forwardRows; }

@@ -123,11 +123,30 @@ TEST_CASE("effort rises with disagreement and comes back") {
     CHECK((off.effort().steps == 0 && !off.effort().emaDecay));
 }
 
+TEST_CASE("the younger the cache, the more of its suffixes are unbiased") {
+    AdaptationConfig config;
+    Adaptation adaptation(config, 4, 0.99);
+    CHECK(adaptation.unbiasedShare(0.0625f) == 1.0f);
+    CHECK(adaptation.unbiasedShare(0.0f) == 0.0f); // none wanted, none ever
+    for (int frame = 0; frame < 128; ++frame) adaptation.observe(1.0f, 1.0f);
+    CHECK(adaptation.unbiasedShare(0.0625f) == 0.5f); // 512 steps
+    for (int frame = 0; frame < 10000; ++frame) adaptation.observe(1.0f, 1.0f);
+    CHECK(adaptation.unbiasedShare(0.0625f) == 0.0625f);
+    adaptation.observe(1.0f, 9.0f);
+    CHECK(adaptation.unbiasedShare(0.0625f) == 1.0f); // all is urgent
+    config.on = false;
+    CHECK(Adaptation(config, 4, 0.99).unbiasedShare(0.0625f) == 0.0625f);
+    config.on = true;
+    config.youth = 0;
+    CHECK(Adaptation(config, 4, 0.99).unbiasedShare(0.0625f) == 0.0625f);
+}
+
 TEST_CASE("adaptation is configured as JSON") {
     CHECK(parseNrcConfig("{}", "x").adaptation.on);
     CHECK_FALSE(parseNrcConfig(R"({"adaptation": "off"})", "x").adaptation.on);
     const auto config = parseNrcConfig(R"({"adaptation": {"most_steps": 8, "full": 2}})", "x").adaptation;
-    CHECK((config.on && config.mostSteps == 8 && config.full == 2.0f));
+    CHECK((config.on && config.mostSteps == 8 && config.full == 2.0f && config.youth == 512));
+    CHECK(parseNrcConfig(R"({"adaptation": {"youth": 64}})", "x").adaptation.youth == 64);
     for (const char* text : {R"({"adaptation": "maybe"})", R"({"adaptation": {"full": 0.1}})",
                              R"({"adaptation": {"shortest_ema": 1}})", R"({"adaptation": 3})"})
         expectError(ExitCode::BadData, "adaptation", [&] { parseNrcConfig(text, "x"); });

@@ -18,7 +18,8 @@ using test::BsdfEvaluation;
 
 namespace {
 
-// Of one operation in single precision, relative: half a unit on CPUs; Vulkan lets a GPU's division be off by 2.5.
+// Of one operation in single precision, relative: half a unit on CPUs; Vulkan lets a GPU's division be off
+// by 2.5.
 double rounding() {
     return test::validatedDevice().isCpu() ? 0x1p-24 : 5 * 0x1p-24;
 }

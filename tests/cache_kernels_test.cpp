@@ -249,8 +249,8 @@ double worstOf(const Propagated& actual, const Propagated& expected) {
         if (!std::isfinite(size)) size = 1.0;
         for (size_t v = 0; v < expected.targets[p].size(); ++v)
             worst = std::max(worst, difference(actual.targets[p][v], expected.targets[p][v], size));
-        worst = std::max(worst, difference(Vec3(actual.rootSums[p]), Vec3(expected.rootSums[p]),
-                                           8.0 * std::sqrt(size)));
+        worst = std::max(
+            worst, difference(Vec3(actual.rootSums[p]), Vec3(expected.rootSums[p]), 8.0 * std::sqrt(size)));
         worst = std::max(worst, difference(Vec3(actual.largest[p]), Vec3(expected.largest[p]), size));
     }
     return worst;

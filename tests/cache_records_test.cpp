@@ -111,7 +111,8 @@ float sumInFixedOrder(const std::vector<PathSum>& sums, size_t lanes) {
     float total = 0.0f;
     for (size_t lane = 0; lane < lanes; ++lane) {
         float sum = 0.0f;
-        for (size_t p = lane * share; p < std::min((lane + 1) * share, sums.size()); ++p) sum += sums[p].rootSum;
+        for (size_t p = lane * share; p < std::min((lane + 1) * share, sums.size()); ++p)
+            sum += sums[p].rootSum;
         total += sum;
     }
     return total;

@@ -36,8 +36,8 @@ Scene furnace(float albedo) {
 }
 
 constexpr uint32_t kGroup = 25; // frames whose mean is judged: of 1e5 paths, each off by less than 0.5
-// By then light of 20 bounces and more has come back. What is learned wrong by a share x would show 20 times over
-// at an albedo of 0.95 if all were self-trained; of what is, half the suffixes being unbiased, twice.
+// By then light of 20 bounces and more has come back. What is learned wrong by a share x would show 20 times
+// over at an albedo of 0.95 if all were self-trained; of what is, half the suffixes being unbiased, twice.
 constexpr uint32_t kSettled = 400; // frames
 constexpr double kTolerance = 0.02;
 

@@ -204,10 +204,10 @@ TEST_CASE("no driver is 69 and a sentence") {
 
 TEST_CASE("render tells its progress as JSON") {
     const TemporaryFolder folder;
-    const Run run = irradiaProgram("render " IRRADIA_BIN_DIR
-                                   "/../scenes/cornell-box.glb --size 8x8 --frames 3 "
-                                   "--max-bounces 1 --progress json -o " +
-                                   (folder / "a.exr").string());
+    const Run run =
+        irradiaProgram("render " IRRADIA_BIN_DIR "/../scenes/cornell-box.glb --size 8x8 --frames 3 "
+                       "--max-bounces 1 --progress json -o " +
+                       (folder / "a.exr").string());
     INFO(run.err);
     REQUIRE(run.code == 0);
     std::istringstream lines(run.err);

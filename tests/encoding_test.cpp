@@ -119,7 +119,9 @@ std::vector<EncodingCase> compositeCases() {
     }
     cases.push_back({{harmonics(1), harmonics(2), harmonics(3), oneBlob(1, 64, true)}, 10});
     cases.push_back({{triangleWave(20, 16), oneBlob(2, 64, false)}, 22});
-    cases.push_back({{triangleWave(3, 12), empty(2), oneBlob(2, 4, false), empty(1), oneBlob(1, 4, false), empty(0)}, 14});
+    cases.push_back(
+        {{triangleWave(3, 12), empty(2), oneBlob(2, 4, false), empty(1), oneBlob(1, 4, false), empty(0)},
+         14});
     return cases;
 }
 

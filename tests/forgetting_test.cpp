@@ -57,7 +57,7 @@ NrcOptions options(float share) {
     options.config.minRecords = 1024;
     options.config.suffixBounces = 3;
     options.config.adaptation.youth = 0; // long suffixes see the other end too
-    options.config.endDepth = 0; // what is seen is the cache at the first hit
+    options.config.endDepth = 0;         // what is seen is the cache at the first hit
     options.config.uniformShare = share;
     return options;
 }

@@ -348,7 +348,10 @@ TEST_CASE("a submission that takes too long is given up, and the pass at work na
     graph.execute();
     graph.setTimeout(0.2);
     graph.pass(spin, "short").readWrite(state).push(uint32_t{1}).dispatch(1024);
-    graph.pass(spin, "long").readWrite(state).push(device.isCpu() ? 50'000'000u : 4'000'000'000u).dispatch(1024);
+    graph.pass(spin, "long")
+        .readWrite(state)
+        .push(device.isCpu() ? 50'000'000u : 4'000'000'000u)
+        .dispatch(1024);
     graph.pass(spin, "never").readWrite(state).push(uint32_t{1}).dispatch(1024);
     requireRefusal(ExitCode::Internal, "did not finish within 0.2 s; the last pass was long",
                    [&] { graph.execute(); });

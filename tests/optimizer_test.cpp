@@ -104,8 +104,8 @@ double errorAgainst(const OptimizerHarness& harness, const reference::Optimizer&
                      worstError(doubles(harness.get(&ParameterGroup::secondMoments)), twin.second),
                      worstError(doubles(harness.get(&ParameterGroup::averages)), twin.average.values)});
 }
-// A step rounds each value a few times by 2^-24; ten times the worst seen on a CPU. Vulkan lets a GPU's division be off by
-// five times as much.
+// A step rounds each value a few times by 2^-24; ten times the worst seen on a CPU. Vulkan lets a GPU's
+// division be off by five times as much.
 double tolerance() {
     return validatedDevice().isCpu() ? 2e-6 : 1e-5;
 }

@@ -1,7 +1,7 @@
 // How much is learned per frame: more, and forgotten faster, while what the cache predicts and what paths
-// find disagree (a lamp was switched, the scene was entered), and as configured when they agree. Self-training
-// hands light on by a bounce each time it has learned the last one: while the cache is young, or all is
-// urgent, more of the training paths bring in light themselves.
+// find disagree (a lamp was switched, the scene was entered), and as configured when they agree.
+// Self-training hands light on by a bounce each time it has learned the last one: while the cache is young,
+// or all is urgent, more of the training paths bring in light themselves.
 #pragma once
 
 #include "nrc/trainer.h"
@@ -31,7 +31,7 @@ public:
     TrainingEffort effort() const;                        // of the next
     // Of suffixes that end by roulette alone, in the next frame: at least `configured`; none if that is none.
     float unbiasedShare(float configured) const;
-    float urgency() const { return urgency_; }            // 0 to 1
+    float urgency() const { return urgency_; } // 0 to 1
 
 private:
     AdaptationConfig config_;

@@ -108,8 +108,8 @@ void NrcRenderer::forgetFilm() {
     tracer_.forgetFilm();
 }
 
-// As many as give the wanted number of records if they are as long as in the frame before; tiles as square as the picture
-// allows.
+// As many as give the wanted number of records if they are as long as in the frame before; tiles as square as
+// the picture allows.
 NrcRenderer::TrainingPaths NrcRenderer::wantedPaths() const {
     const double width = options_.paths.width, height = options_.paths.height;
     const double most = mostTiles(options_);

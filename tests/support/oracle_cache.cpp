@@ -36,7 +36,8 @@ OracleCache::OracleCache(Device& device, const PathTracerOptions& options, float
     , queryWeights_(device, "query weights", padded(options_.waveSize) * 16)
     , predictions_(device, "predictions", padded(options_.waveSize) * 16)
     , counters_(device, "counters", gpu::kCacheCounters * 4)
-    , state_(makeBuffer(device, "state", std::vector{gpu::CacheState{1.0f, 1.0f, 1, 0, 0, 0, 0, 0}})) // has learned
+    , state_(makeBuffer(device, "state",
+                        std::vector{gpu::CacheState{1.0f, 1.0f, 1, 0, 0, 0, 0, 0}})) // has learned
     , trainingPaths_(device, "training paths", pathRows_ * gpu::kTrainingPathVectors * 16)
     , trainingVertices_(device, "training vertices",
                         pathRows_ * gpu::kMaxTrainingVertices * gpu::kTrainingVertexVectors * 16)

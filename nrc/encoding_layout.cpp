@@ -96,18 +96,13 @@ EncodingLayout layOut(const std::vector<EncodingConfig>& parts, uint32_t inputs)
     EncodingLayout layout{inputs, 0, {}};
     std::vector<EncodingSlice> whole;
     uint32_t input = 0;
-    size_t number = 0;
-    for (const EncodingConfig& part : resolved(parts, inputs)) {
-        const uint32_t firstInput = input;
-        input += part.dims;
-        const size_t at = number++;
-        if (part.type == EncodingType::Empty) continue;
-        checkPart(part, at);
-        const EncodingSlice slice{part, firstInput, valuesOf(part), layout.encodedQuads};
-        layout.encodedQuads += slice.quads();
-        whole.push_back(slice);
+    const std::vector<EncodingConfig> all = resolved(parts, inputs);
+    for (size_t p = 0; p < all.size(); input += all[p++].dims) {
+        if (all[p].type == EncodingType::Empty) continue;
+        checkPart(all[p], p);
+        whole.push_back({all[p], input, valuesOf(all[p]), layout.encodedQuads});
+        layout.encodedQuads += whole.back().quads();
     }
-
     if (whole.empty()) fail(ExitCode::BadData, "encoding: leaves all inputs out");
 
     std::vector<EncodingSlice> merged;

@@ -5,6 +5,7 @@
 #include "tests/reference/random.h"
 #include "tests/reference/sphere_histogram.h"
 #include "tests/support/bsdf_harness.h"
+#include "tests/support/gpu_rounding.h"
 #include <algorithm>
 #include <catch2/catch_test_macros.hpp>
 #include <fmt/format.h>
@@ -18,10 +19,8 @@ using test::BsdfEvaluation;
 
 namespace {
 
-// Of one operation in single precision, relative: half a unit on CPUs; Vulkan lets a GPU's division be off
-// by 2.5.
-double rounding() {
-    return test::validatedDevice().isCpu() ? 0x1p-24 : 5 * 0x1p-24;
+double rounding() { // of one operation in single precision, relative
+    return test::divisionSlack() * 0x1p-24;
 }
 
 reference::Ggx lobeOf(const BsdfCase& c) {

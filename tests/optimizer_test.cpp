@@ -3,6 +3,7 @@
 #include "nrc/optimizer.h"
 #include "tests/reference/optimizers.h"
 #include "tests/reference/random.h"
+#include "tests/support/gpu_rounding.h"
 #include "tests/support/kernel_harness.h"
 #include "tests/support/network_comparison.h"
 #include <catch2/catch_test_macros.hpp>
@@ -104,10 +105,9 @@ double errorAgainst(const OptimizerHarness& harness, const reference::Optimizer&
                      worstError(doubles(harness.get(&ParameterGroup::secondMoments)), twin.second),
                      worstError(doubles(harness.get(&ParameterGroup::averages)), twin.average.values)});
 }
-// A step rounds each value a few times by 2^-24; ten times the worst seen on a CPU. Vulkan lets a GPU's
-// division be off by five times as much.
+// A step rounds each value a few times by 2^-24; ten times the worst seen on a CPU.
 double tolerance() {
-    return validatedDevice().isCpu() ? 2e-6 : 1e-5;
+    return test::divisionSlack() * 2e-6;
 }
 
 OptimizerConfig plainConfig() {

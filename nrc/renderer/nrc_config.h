@@ -26,8 +26,8 @@ struct NrcConfig {
     float spread = 0.01f;
     float trainingSpread = 0.01f;
     uint32_t endDepth = gpu::kNoDepth; // number of the vertex at which paths end at the latest
-    float unbiasedShare =
-        1.0f / 16.0f; // of training paths whose suffix ends by Russian roulette alone; adaptation raises it
+    // Of training paths whose suffix ends by Russian roulette alone; adaptation raises it. 0 = none.
+    float unbiasedShare = 1.0f / 16.0f;
     uint32_t suffixBounces = 8; // of a training path, beyond those that --max-bounces gives a rendering path
     // Share of the paths that go on past their query, so that the picture is unbiased (the cache is then a
     // control variate); 0 = none.

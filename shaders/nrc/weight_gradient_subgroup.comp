@@ -23,8 +23,10 @@ const uint kQuadsAtOnce = kSubgroupSize / kRowsTogether; // of these rows' gradi
 
 #include "nrc/weight_blocks.glsl"
 
-vec4 gradients[(kOutputQuadsTogether + kQuadsAtOnce - 1u) / kQuadsAtOnce];
-vec4 inputs[kRowsTogether];            // [row] of the lane's quad
+const uint kGradientLoads = (kOutputQuadsTogether + kQuadsAtOnce - 1u) / kQuadsAtOnce;
+
+vec4 gradients[kGradientLoads];
+vec4 inputs[kRowsTogether]; // [row] of the lane's quad
 
 // Does nothing, which compilers cannot know: it keeps these arrays in memory (as in mlp_subgroup.glsl).
 void keepInMemory() {
@@ -35,21 +37,23 @@ void keepInMemory() {
     }
 }
 
+// Row of a tile's first half or second (a cache line each) in turn: lines that are not near are waited for together.
+uint rowInTurn(uint k) { return k / 2u + k % 2u * (kRowsTogether / 2u); }
+
 void loadRows(Block b, uint row, uint end) {
-    uint gradientRow = row + gl_SubgroupInvocationID % kRowsTogether;
-    [[unroll]] for (uint i = 0u; i * kQuadsAtOnce < kOutputQuadsTogether; ++i) {
-        uint quad = i * kQuadsAtOnce + gl_SubgroupInvocationID / kRowsTogether;
-        gradients[i] = quad < b.gradientQuads && gradientRow < end
-                           ? loadQuad(layerGradients, quadIndex(gradientRow, b.gradientQuad + quad, kGradientQuads))
-                           : vec4(0.0);
-    }
     // One branch around all of them: of a choice between two loads lavapipe executes both.
     if (b.isInput)
-        [[unroll]] for (uint r = 0u; r < kRowsTogether; ++r)
-            inputs[r] = loadQuad(encoded, quadIndex(min(row + r, end - 1u), b.activationQuad, kInputQuads));
+        [[unroll]] for (uint k = 0u; k < kRowsTogether; ++k)
+            inputs[rowInTurn(k)] = loadQuad(encoded, quadIndex(min(row + rowInTurn(k), end - 1u), b.activationQuad, kInputQuads));
     else
-        [[unroll]] for (uint r = 0u; r < kRowsTogether; ++r)
-            inputs[r] = loadQuad(activations, quadIndex(min(row + r, end - 1u), b.activationQuad, kActivationQuads));
+        [[unroll]] for (uint k = 0u; k < kRowsTogether; ++k)
+            inputs[rowInTurn(k)] = loadQuad(activations, quadIndex(min(row + rowInTurn(k), end - 1u), b.activationQuad, kActivationQuads));
+    uint gradientRow = row + gl_SubgroupInvocationID % kRowsTogether;
+    [[unroll]] for (uint i = 0u; i < kGradientLoads; ++i) {
+        uint quad = b.gradientQuad + min(i * kQuadsAtOnce + gl_SubgroupInvocationID / kRowsTogether, b.gradientQuads - 1u);
+        gradients[i] = mix(vec4(0.0), loadQuad(layerGradients, quadIndex(min(gradientRow, end - 1u), quad, kGradientQuads)),
+                           bvec4(gradientRow < end));
+    }
     keepInMemory();
 }
 

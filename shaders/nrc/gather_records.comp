@@ -29,24 +29,32 @@ uint targetQuads() { return (params.targets + 3u) / 4u; }
 
 bool isUsable(uvec4 quad, bvec4 exists) { return isWithin(mix(vec4(0.0), uintBitsToFloat(quad), exists), params.limit); }
 
-bool isUsable(uint record) {
+bool copyRecord(uint record, uint row) {
     bool usableSoFar = true;
-    for (uint q = 0u; q < inputQuads(); ++q)
-        usableSoFar = usableSoFar && isUsable(loadRecord(inputs, quadIndex(record, q, inputQuads())), existing(q, params.inputs));
-    for (uint q = 0u; q < targetQuads(); ++q)
-        usableSoFar = usableSoFar && isUsable(loadRecord(targets, quadIndex(record, q, targetQuads())), existing(q, params.targets));
+    for (uint q = 0u; q < inputQuads(); ++q) {
+        uvec4 quad = loadRecord(inputs, quadIndex(record, q, inputQuads()));
+        storeGathered(batchInputs, quadIndex(row, q, inputQuads()), quad);
+        usableSoFar = usableSoFar && isUsable(quad, existing(q, params.inputs));
+    }
+    for (uint q = 0u; q < targetQuads(); ++q) {
+        uvec4 quad = loadRecord(targets, quadIndex(record, q, targetQuads()));
+        storeGathered(batchTargets, quadIndex(row, q, targetQuads()), quad);
+        usableSoFar = usableSoFar && isUsable(quad, existing(q, params.targets));
+    }
     return usableSoFar;
+}
+
+void clearRecord(uint row) {
+    for (uint q = 0u; q < inputQuads(); ++q) storeGathered(batchInputs, quadIndex(row, q, inputQuads()), uvec4(0u));
+    for (uint q = 0u; q < targetQuads(); ++q) storeGathered(batchTargets, quadIndex(row, q, targetQuads()), uvec4(0u));
 }
 
 void main() {
     uint row = gl_GlobalInvocationID.x;
     if (row >= state.batchRows) return;
-    uint record = permute(state.batchFirst + row, state.records, state.permutationKey);
-    bool use = isUsable(record);
-    for (uint q = 0u; q < inputQuads(); ++q)
-        storeGathered(batchInputs, quadIndex(row, q, inputQuads()), use ? loadRecord(inputs, quadIndex(record, q, inputQuads())) : uvec4(0u));
-    for (uint q = 0u; q < targetQuads(); ++q)
-        storeGathered(batchTargets, quadIndex(row, q, targetQuads()), use ? loadRecord(targets, quadIndex(record, q, targetQuads())) : uvec4(0u));
+    bool use = copyRecord(permute(state.batchFirst + row, state.records, state.permutationKey), row);
     storeWord(usable, row, use ? 1u : 0u);
-    if (!use) atomicAdd(state.droppedRecords, 1u);
+    if (use) return;
+    clearRecord(row);
+    atomicAdd(state.droppedRecords, 1u);
 }

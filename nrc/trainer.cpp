@@ -32,7 +32,7 @@ Loss makeLoss(Device& device, const ModelConfig& config, uint32_t outputs) {
 
 // A CPU learns from a batch in parts of so many rows: of 8 layers of 128 neurons their activations fit into a
 // binding (128 MiB in lavapipe), and each pass takes many times what starting it does.
-constexpr uint32_t kCpuPartRows = 8192;
+constexpr uint32_t kCpuPartRows = 16384;
 
 // Whole chunks of the weights' gradient.
 uint32_t rowsOfPart(const Device& device, uint32_t batchRows) {

@@ -18,5 +18,4 @@ void main() {
     uint share = state.records / params.batches, rest = state.records % params.batches;
     state.batchFirst = share * params.batch + min(rest, params.batch);
     state.batchRows = share + (params.batch < rest ? 1u : 0u);
-    state.validRecords = 0u;
 }

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The batch's mean loss and brightness, which a batch without a usable record leaves as they are, and the factor that makes
+// How many records the batch could use, its mean loss and brightness, which a batch without a usable record leaves as they are, and the factor that makes
 // gradients those of the mean. One workgroup, sums in a fixed order.
 #include "lib/kernel.glsl"
 #include "nrc/state.glsl"
@@ -9,7 +9,7 @@ STATE(0);
 RECORDS_READ(1, rowSums);
 layout(push_constant) uniform Push { EndBatchParams params; };
 
-shared vec3 sums[gl_WorkGroupSize.x];
+shared vec4 sums[gl_WorkGroupSize.x];
 
 // Batches are of one size, or nearly: the mean over a pass is that of their means.
 void addToPass(vec2 brightness) {
@@ -22,14 +22,15 @@ void addToPass(vec2 brightness) {
 
 void main() {
     uint lane = gl_LocalInvocationID.x;
-    vec3 sum = vec3(0.0);
+    vec4 sum = vec4(0.0);
     for (uint row = lane; row < state.batchRows; row += gl_WorkGroupSize.x)
-        sum += uintBitsToFloat(loadRecord(rowSums, row).xyz);
+        sum += uintBitsToFloat(loadRecord(rowSums, row));
     sums[lane] = sum;
     barrier();
     if (lane != 0u) return;
-    vec3 total = vec3(0.0);
+    vec4 total = vec4(0.0);
     for (uint i = 0u; i < gl_WorkGroupSize.x; ++i) total += sums[i];
+    state.validRecords = uint(total.w); // exact: a batch has fewer than 2^24 rows
     float count = float(state.validRecords) * float(params.outputs);
     if (state.validRecords > 0u) {
         state.loss = total.x / count;

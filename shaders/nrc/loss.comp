@@ -17,7 +17,7 @@ RECORDS_READ(1, results);
 RECORDS_READ(2, targets);
 WORDS_READ(3, usable);
 RECORDS_WRITE(4, resultGradient);
-RECORDS_WRITE(5, rowSums); // loss, luminance of the prediction and of the target; zero where the row is not used
+RECORDS_WRITE(5, rowSums); // loss, luminance of the prediction and of the target, 1; all zero where the row is not used
 layout(push_constant) uniform Push { LossParams params; };
 
 // From exponentStart to exponentEnd over the steps [annealStart, annealEnd].
@@ -64,7 +64,6 @@ void main() {
     bool use = usableRow && finite && loss <= kGradientLimit;
     [[unroll]] for (uint q = 0u; q < kQuads; ++q)
         storeRecord(resultGradient, quadIndex(row, q, kQuads), floatBitsToUint(use ? handedOn(gradient[q]) : vec4(0.0)));
-    storeRecord(rowSums, row, floatBitsToUint(use ? vec4(loss, predicted, wanted, 0.0) : vec4(0.0)));
-    if (use) atomicAdd(state.validRecords, 1u);
+    storeRecord(rowSums, row, floatBitsToUint(use ? vec4(loss, predicted, wanted, 1.0) : vec4(0.0)));
     if (usableRow && !use) atomicAdd(state.droppedRecords, 1u);
 }

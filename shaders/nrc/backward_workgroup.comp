@@ -33,7 +33,7 @@ void beginWithResults(uint first) {
 
 // Through a transposed matrix to the layer before it.
 void hiddenLayer(uint first, uint layer, uint matrix, uint quads) {
-    multiplyLayer(matrix, quads);
+    multiplyLayer(matrix, quads, kWidthQuads * 4u);
     FOR_LAYER_SUMS(row, quad, sum, {
         uint layerQuad = layer * kWidthQuads + quad;
         vec4 gradient = sum * reluDerivative(loadQuad(activations, quadIndex(first + row, layerQuad, kActivationQuads)));
@@ -58,8 +58,10 @@ void main() {
     uint first = firstRow();
     if (first >= ROW_COUNT) return;
     beginWithResults(first);
-    hiddenLayer(first, kHiddenLayers - 1u, kOutputTransposed, kOutputQuads);
-    for (uint layer = kHiddenLayers - 1u; layer > 0u; --layer)
-        hiddenLayer(first, layer - 1u, kTransposed + kHiddenMatrices + (layer - 1u) * kHiddenMatrixQuads, kWidthQuads);
+    for (uint layer = kHiddenLayers; layer > 0u; --layer)
+        hiddenLayer(first, layer - 1u,
+                    layer == kHiddenLayers ? kOutputTransposed
+                                           : kTransposed + kHiddenMatrices + (layer - 1u) * kHiddenMatrixQuads,
+                    layer == kHiddenLayers ? kOutputQuads : kWidthQuads);
     if (kInputGradient) inputLayer(first);
 }

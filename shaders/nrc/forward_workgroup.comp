@@ -31,8 +31,7 @@ void keep(uint row, uint quad, vec4 activation) {
 #endif
 }
 
-void hiddenLayer(uint first, uint layer, uint matrix, uint quads) {
-    multiplyLayer(matrix, quads);
+void finishHidden(uint first, uint layer) {
     FOR_LAYER_SUMS(row, quad, sum, {
         vec4 activation = relu(sum);
         rowQuads[quad * kGroupRows + row] = toShared(activation);
@@ -40,21 +39,24 @@ void hiddenLayer(uint first, uint layer, uint matrix, uint quads) {
     })
 }
 
-void outputLayer(uint first) {
-    multiplyBlock(kOutputMatrix, kWidthQuads, kFeaturePadding, 0u);
-    [[unroll]] for (uint k = 0u; k < kThreadRows; ++k)
-        [[unroll]] for (uint m = 0u; m < kThreadQuads; ++m)
-            if (quadOfThread(m) < kOutputQuads)
-                storeRecord(results, quadIndex(first + rowOfThread(k), quadOfThread(m), kOutputQuads),
-                            floatBitsToUint(activateOutput(sums[k * kThreadQuads + m])));
+void storeResults(uint first) {
+    FOR_LAYER_SUMS(row, quad, sum, {
+        if (quad < kOutputQuads)
+            storeRecord(results, quadIndex(first + row, quad, kOutputQuads), floatBitsToUint(activateOutput(sum)));
+    })
 }
 
 void main() {
     uint first = firstRow();
     if (first >= ROW_COUNT) return;
     loadInputs(first);
-    hiddenLayer(first, 0u, kInputMatrix, kInputQuads);
-    for (uint layer = 1u; layer < kHiddenLayers; ++layer)
-        hiddenLayer(first, layer, kHiddenMatrices + (layer - 1u) * kHiddenMatrixQuads, kWidthQuads);
-    outputLayer(first);
+    for (uint layer = 0u; layer <= kHiddenLayers; ++layer) { // the last one is the output layer
+        bool isInput = layer == 0u, isHidden = layer < kHiddenLayers;
+        multiplyLayer(isInput ? kInputMatrix : kHiddenMatrices + (layer - 1u) * kHiddenMatrixQuads,
+                      isInput ? kInputQuads : kWidthQuads, isHidden ? kWidthQuads * 4u : kFeaturePadding);
+        if (isHidden)
+            finishHidden(first, layer);
+        else
+            storeResults(first);
+    }
 }

@@ -56,17 +56,25 @@ void multiplyBlock(uint matrix, uint quads, uint outputs, uint firstOutput) {
     }
 }
 
-// A hidden layer into layerSums. The next layer's inputs are theirs to write, after a barrier.
-void multiplyLayer(uint matrix, uint quads) {
-    [[unroll]] for (uint b = 0u; b < kLayerBlocks; ++b) {
-        multiplyBlock(matrix, quads, kWidthQuads * 4u, b * kBlockOutputs);
-        [[unroll]] for (uint k = 0u; k < kThreadRows * kThreadQuads; ++k)
-            layerSums[b * kThreadRows * kThreadQuads + k] = sums[k];
+// layerSums of block `b` = sums, at constant indices.
+void appendBlock(uint b) {
+    [[unroll]] for (uint constant = 0u; constant < kLayerBlocks; ++constant)
+        if (b == constant)
+            [[unroll]] for (uint k = 0u; k < kThreadRows * kThreadQuads; ++k)
+                layerSums[constant * kThreadRows * kThreadQuads + k] = sums[k];
+}
+
+// A layer of at most kWidthQuads * 4 outputs into layerSums. The next layer's inputs are theirs to write, after a barrier.
+// Called from one place, for all layers, and not unrolled over blocks: lavapipe takes seconds to compile each copy.
+void multiplyLayer(uint matrix, uint quads, uint outputs) {
+    [[dont_unroll]] for (uint b = 0u; b * kBlockOutputs < outputs; ++b) {
+        multiplyBlock(matrix, quads, outputs, b * kBlockOutputs);
+        appendBlock(b);
     }
     barrier();
 }
 
-// Loops over what a thread owns of a hidden layer: body sees its row in the tile, its quad in the layer and its sum.
+// Loops over what a thread owns of a layer: body sees its row in the tile, its quad in the layer and its sum.
 #define FOR_LAYER_SUMS(row, quad, sum, body)                                                                 \
     [[unroll]] for (uint b_ = 0u; b_ < kLayerBlocks; ++b_)                                                   \
         [[unroll]] for (uint k_ = 0u; k_ < kThreadRows; ++k_)                                                \

@@ -4,6 +4,7 @@
 #include "kernels/nrc.h"
 #include "nrc/encoding_kernels.h"
 #include "nrc/random.h"
+#include <zlib.h>
 
 namespace irradia {
 namespace {
@@ -24,6 +25,11 @@ struct SlicePass {
     Kernel encode;
     std::unique_ptr<Grid> grid; // of a slice that is a grid
 };
+
+uint32_t checksum(std::span<const uint32_t> words, uint32_t before) {
+    return static_cast<uint32_t>(
+        crc32_z(before, reinterpret_cast<const Bytef*>(words.data()), words.size_bytes()));
+}
 
 const char* passName(EncodingType type) {
     switch (type) {
@@ -57,13 +63,14 @@ std::unique_ptr<Grid> makeGrid(Device& device, const FeatureGrid& made, const En
 struct Encoding::State {
     EncodingLayout layout;
     uint64_t features = 0;
+    std::optional<uint32_t> storedCorners;
     std::vector<SlicePass> slices;
     Kernel take;
 
     std::vector<FeatureGrid> layOutGrids(const Device& device, std::span<const glm::vec3> touched);
 };
 
-// The grids one after the other; `features` becomes their sum.
+// The grids one after the other; `features` becomes their sum, storedCorners what they store.
 std::vector<FeatureGrid> Encoding::State::layOutGrids(const Device& device,
                                                       std::span<const glm::vec3> touched) {
     std::vector<FeatureGrid> grids;
@@ -71,6 +78,8 @@ std::vector<FeatureGrid> Encoding::State::layOutGrids(const Device& device,
         if (!isGrid(slice.config.type)) continue;
         const uint64_t perEntry = slice.config.featuresPerLevel;
         grids.push_back(makeFeatureGrid(slice.config, features / perEntry, device.limits(), touched));
+        if (grids.back().kind == gpu::kGridSparse)
+            storedCorners = checksum(grids.back().entries, storedCorners.value_or(0));
         features = (grids.back().end * perEntry + kGridAlignment - 1) / kGridAlignment * kGridAlignment;
     }
     return grids;
@@ -113,6 +122,9 @@ uint32_t Encoding::width() const {
 }
 uint64_t Encoding::featureCount() const {
     return state_->features;
+}
+std::optional<uint32_t> Encoding::storedCorners() const {
+    return state_->storedCorners;
 }
 uint64_t Encoding::sumBytes() const {
     return state_->features * 8;

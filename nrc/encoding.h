@@ -10,6 +10,7 @@
 #include "nrc/config.h"
 #include <glm/glm.hpp>
 #include <memory>
+#include <optional>
 #include <span>
 
 namespace irradia {
@@ -37,6 +38,9 @@ public:
     uint32_t inputQuads() const;   // of a row of inputs: ceil(inputs / 4)
     uint32_t width() const;        // values a row of the result, a multiple of gpu::kFeaturePadding
     uint64_t featureCount() const; // trainable features, 0 without a grid; a multiple of 4
+    // CRC-32 of which corners the sparse grids store: only between equal ones may features be exchanged. None
+    // where no grid is sparse.
+    std::optional<uint32_t> storedCorners() const;
 
     // Uniform in +-1e-4 (Müller 2022, section 4).
     void initialise(std::span<float> features, uint64_t seed) const;

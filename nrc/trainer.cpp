@@ -267,9 +267,13 @@ OutputLayer Trainer::outputLayer() const {
 
 std::string Trainer::shapeName() const {
     const ModelConfig& model = state_->config;
-    return fmt::format("{} with {} inputs, {} outputs, output activation {}, encoding {}",
-                       describe(model.network), state_->encoding.inputs(), state_->network.outputs(),
-                       describe(model.network.outputActivation), describe(model.encoding));
+    std::string name =
+        fmt::format("{} with {} inputs, {} outputs, output activation {}, encoding {}",
+                    describe(model.network), state_->encoding.inputs(), state_->network.outputs(),
+                    describe(model.network.outputActivation), describe(model.encoding));
+    if (const auto corners = state_->encoding.storedCorners())
+        name += fmt::format(" at corners {:08x}", *corners);
+    return name;
 }
 
 TrainingCounts Trainer::counts() const {

@@ -120,6 +120,28 @@ TEST_CASE("a model of another shape, or none, is refused and changes nothing") {
     CHECK(areSame(harness.learned(), now));
 }
 
+TEST_CASE("a sparse grid's model is refused where as many other corners are stored") {
+    const TemporaryFolder folder;
+    ModelConfig config = smallModel();
+    config.encoding = parseModelConfig(R"({"encoding": {"otype": "Composite", "nested": [
+        {"otype": "SparseGrid", "n_dims_to_encode": 3, "n_levels": 2, "base_resolution": 4},
+        {"otype": "Identity"}]}})",
+                                       "sparse model")
+                          .encoding;
+    const auto trainer = [&](float place) {
+        return Trainer(validatedDevice(), config, kTrainerInputs, kTrainerOutputs,
+                       {256, 256, 1, {{place, place, place}}});
+    };
+    const Trainer low = trainer(0.1f);
+    Trainer high = trainer(0.9f), again = trainer(0.1f);
+    REQUIRE(low.parameterCount() == high.parameterCount());
+    low.save(folder / "low.model");
+    CHECK_NOTHROW(again.load(folder / "low.model"));
+    const std::vector<float> before = high.parameters(Weights::Raw);
+    expectError(ExitCode::BadData, low.shapeName(), [&] { high.load(folder / "low.model"); });
+    CHECK((high.parameters(Weights::Raw) == before));
+}
+
 TEST_CASE("precision is no part of the shape: weights are single") {
     const TemporaryFolder folder;
     TrainerHarness single(fullModel()), half(fullModel(Precision::Half));

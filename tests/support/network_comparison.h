@@ -5,9 +5,9 @@
 
 namespace irradia::test {
 
-// Largest difference relative to the largest expected value; infinite where sizes differ or a value is no
-// number.
-double worstError(const std::vector<double>& actual, const std::vector<double>& expected);
+// Largest difference relative to the largest expected value, or to `scale` where that is larger; infinite
+// where sizes differ or a value is no number.
+double worstError(const std::vector<double>& actual, const std::vector<double>& expected, double scale = 0.0);
 
 struct NetworkErrors {
     double results = 0.0, activations = 0.0, inputGradient = 0.0;
@@ -18,7 +18,8 @@ struct NetworkErrors {
 };
 
 // The twin goes forward by itself, and back from the kernels' activations: near the kink of ReLU a last bit
-// decides about a whole derivative, and it must be the same bit.
+// decides about a whole derivative, and it must be the same bit. Results behind a ReLU are relative to the
+// largest sum before it: the few that it leaves may be small, and err as those sums do.
 NetworkErrors compareWithTwin(const NetworkHarness& harness, const std::vector<double>& weights,
                               const NetworkBatch& batch, const NetworkOutputs& outputs);
 

@@ -54,7 +54,7 @@ void Optimizer::measureNorm(FrameGraph& graph, std::span<const ParameterGroup* c
 }
 
 void Optimizer::step(FrameGraph& graph, BufferRange state, std::span<const ParameterGroup* const> groups,
-                     std::optional<double> decay) const {
+                     std::optional<double> decay, double learningRate) const {
     const bool clips = config_.clipNorm > 0;
     if (clips) measureNorm(graph, groups);
     const auto beta1 = static_cast<float>(config_.beta1), beta2 = static_cast<float>(config_.beta2);
@@ -70,9 +70,14 @@ void Optimizer::step(FrameGraph& graph, BufferRange state, std::span<const Param
                                        config_.decayEnd};
     graph.pass(beginUpdate_).readWrite(state).read(partials_).push(begin).dispatchGroups(1);
     for (const ParameterGroup* group : groups) {
-        const gpu::OptimizeParams params{
-            static_cast<uint32_t>(group->count / 4), group->learningRate, beta1,    beta2,
-            static_cast<float>(config_.epsilon),     group->l2,           emaDecay, group->sparse ? 1u : 0u};
+        const gpu::OptimizeParams params{static_cast<uint32_t>(group->count / 4),
+                                         group->learningRate * static_cast<float>(learningRate),
+                                         beta1,
+                                         beta2,
+                                         static_cast<float>(config_.epsilon),
+                                         group->l2,
+                                         emaDecay,
+                                         group->sparse ? 1u : 0u};
         graph.pass(optimize_)
             .readWrite(state)
             .read(group->gradients)

@@ -37,9 +37,9 @@ public:
 
     // One step from the groups' gradients; whether it happens is in `state` (gpu::TrainingState). The average
     // W_1 .. W_t of decays a_1 .. a_t weighs W_i with (1 - a_i) a_(i+1) .. a_t, over the sum of these
-    // weights.
+    // weights. emaDecay: instead of the configuration's, in [0, 1); learningRate: times the groups'.
     void step(FrameGraph& graph, BufferRange state, std::span<const ParameterGroup* const> groups,
-              std::optional<double> emaDecay = {}) const; // instead of the configuration's, in [0, 1)
+              std::optional<double> emaDecay = {}, double learningRate = 1.0) const;
 
 private:
     void measureNorm(FrameGraph& graph, std::span<const ParameterGroup* const> groups) const;

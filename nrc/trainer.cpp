@@ -105,7 +105,7 @@ struct Trainer::State {
     void initialise();
     void gather(FrameGraph& graph, const Records& records, uint32_t index, uint32_t count);
     void learnPart(FrameGraph& graph, uint32_t first);
-    void learn(FrameGraph& graph, uint32_t number, std::optional<double> emaDecay);
+    void learn(FrameGraph& graph, uint32_t number, const TrainingEffort& effort);
     void packForTraining(FrameGraph& graph);
     void packForInference(FrameGraph& graph, Weights which);
 
@@ -195,7 +195,7 @@ void Trainer::State::learnPart(FrameGraph& graph, uint32_t first) {
 }
 
 // `number`: the batch's in the first pass, or gpu::kLaterPass.
-void Trainer::State::learn(FrameGraph& graph, uint32_t number, std::optional<double> emaDecay) {
+void Trainer::State::learn(FrameGraph& graph, uint32_t number, const TrainingEffort& effort) {
     const RowCount rows{state, gpu::kBatchRowsWord, batchRows};
     encoding.encode(graph, rows, batch.inputs, features.values, batch.encoded);
     for (uint32_t first = 0; first < batchRows; first += partRows) learnPart(graph, first);
@@ -205,7 +205,7 @@ void Trainer::State::learn(FrameGraph& graph, uint32_t number, std::optional<dou
         encoding.accumulateGradient(graph, rows, batch.inputs, batch.encodedGradient, batch.featureSums);
         encoding.takeGradient(graph, batch.featureSums, features.gradients, state, gpu::kGradientScaleWord);
     }
-    optimizer.step(graph, state, groups(), emaDecay);
+    optimizer.step(graph, state, groups(), effort.emaDecay, effort.learningRate);
     packedIsCurrent = false;
     inferPackedHolds.reset();
 }
@@ -240,7 +240,7 @@ void Trainer::train(FrameGraph& graph, const Records& records, uint32_t batches,
     for (uint32_t step = 0; step < steps; ++step) {
         state_->packForTraining(graph);
         state_->gather(graph, records, step % batches, batches);
-        state_->learn(graph, step < batches ? step : gpu::kLaterPass, effort.emaDecay);
+        state_->learn(graph, step < batches ? step : gpu::kLaterPass, effort);
         graph.cut();
     }
 }

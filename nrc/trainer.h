@@ -51,6 +51,7 @@ struct TrainingEffort {
     // short
     uint32_t steps = 0;
     std::optional<double> emaDecay; // instead of the optimizer's, in [0, 1)
+    double learningRate = 1.0;      // times the optimizer's
 };
 
 // Weights of the network's last layer, and their averages (nrc/network.h's order).

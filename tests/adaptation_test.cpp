@@ -123,6 +123,26 @@ TEST_CASE("effort rises with disagreement and comes back") {
     CHECK((off.effort().steps == 0 && !off.effort().emaDecay));
 }
 
+TEST_CASE("the learning rate falls with agreement, and is whole again where all is urgent") {
+    AdaptationConfig config;
+    Adaptation adaptation(config, 4, 0.99);
+    const auto agree = [&](int frames) {
+        for (int frame = 0; frame < frames; ++frame) adaptation.observe(1.0f, 1.0f);
+        return adaptation.effort().learningRate;
+    };
+    CHECK(agree(256) == 1.0);  // 1,024 steps
+    CHECK(agree(256) == 0.5);  // as many again
+    CHECK(agree(512) == 0.25); // and again
+    CHECK(agree(512) == 0.2);
+    adaptation.observe(1.0f, 9.0f);
+    CHECK(adaptation.effort().learningRate == 1.0);
+    CHECK(agree(256) == 1.0); // until long after
+    config.settling = 0;
+    CHECK(Adaptation(config, 4, 0.99).effort().learningRate == 1.0);
+    config.on = false;
+    CHECK(Adaptation(config, 4, 0.99).effort().learningRate == 1.0);
+}
+
 TEST_CASE("the younger the cache, the more of its suffixes are unbiased") {
     AdaptationConfig config;
     Adaptation adaptation(config, 4, 0.99);
@@ -147,6 +167,7 @@ TEST_CASE("adaptation is configured as JSON") {
     const auto config = parseNrcConfig(R"({"adaptation": {"most_steps": 8, "full": 2}})", "x").adaptation;
     CHECK((config.on && config.mostSteps == 8 && config.full == 2.0f && config.youth == 512));
     CHECK(parseNrcConfig(R"({"adaptation": {"youth": 64}})", "x").adaptation.youth == 64);
+    CHECK(parseNrcConfig(R"({"adaptation": {"settling": 9}})", "x").adaptation.settling == 9);
     for (const char* text : {R"({"adaptation": "maybe"})", R"({"adaptation": {"full": 0.1}})",
                              R"({"adaptation": {"shortest_ema": 1}})", R"({"adaptation": 3})"})
         expectError(ExitCode::BadData, "adaptation", [&] { parseNrcConfig(text, "x"); });

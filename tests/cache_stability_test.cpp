@@ -39,10 +39,7 @@ constexpr uint32_t kGroup = 25; // frames whose mean is judged: of 1e5 paths, ea
 // By then light of 20 bounces and more has come back. What is learned wrong by a share x would show 20 times
 // over at an albedo of 0.95 if all were self-trained; of what is, half the suffixes being unbiased, twice.
 constexpr uint32_t kSettled = 400; // frames
-// Over 2,000 frames the fast preset wanders between 0.988 and 1.029: learning's own noise.
-double tolerance() {
-    return fullSweep() ? 0.05 : 0.02;
-}
+constexpr double kTolerance = 0.02;
 
 struct Course {
     std::vector<double> means; // of groups of frames
@@ -51,7 +48,7 @@ struct Course {
     bool isStableFrom(uint32_t frame) const {
         bool is = means.size() > frame / kGroup;
         for (size_t i = frame / kGroup; i < means.size(); ++i)
-            is = is && std::abs(means[i] - 1.0) < tolerance();
+            is = is && std::abs(means[i] - 1.0) < kTolerance;
         return is;
     }
 };

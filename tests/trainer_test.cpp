@@ -209,6 +209,20 @@ TEST_CASE("more effort is further passes, and the average follows faster") {
     CHECK(weights(short3) == short3.trainer().parameters(Weights::Ema));
 }
 
+TEST_CASE("an effort's learning rate is a factor of the optimizer's") {
+    const TrainingRecords records = randomRecords(200, 12);
+    const auto weightsAfter = [&](double configured, double factor) {
+        ModelConfig config = smallGridModel();
+        config.optimizer.learningRate *= configured;
+        config.optimizer.gridLearningRate *= configured;
+        TrainerHarness harness(config);
+        harness.train(records, 2, {.learningRate = factor});
+        return harness.trainer().parameters(Weights::Raw);
+    };
+    CHECK(weightsAfter(1.0, 0.25) == weightsAfter(0.25, 1.0)); // powers of two round nothing
+    CHECK(weightsAfter(1.0, 0.25) != weightsAfter(1.0, 1.0));
+}
+
 TEST_CASE("the means of predictions and targets are those of the usable records") {
     TrainingRecords records = randomRecords(201, 12);
     TrainerHarness harness;

@@ -6,7 +6,8 @@
 namespace irradia {
 namespace {
 
-constexpr float kDark = 0.01f; // in the cache's scale
+constexpr float kDark = 0.01f;   // in the cache's scale
+constexpr double kSlowest = 0.2; // learning rate: regions that come into view are to be learned
 
 } // namespace
 
@@ -16,8 +17,8 @@ Adaptation::Adaptation(const AdaptationConfig& config, uint32_t steps, double em
     , emaDecay_(emaDecay) {}
 
 void Adaptation::observe(float meanPrediction, float meanTarget) {
-    const uint32_t steps = effort().steps;
-    taken_ += steps == 0 ? steps_ : steps;
+    const uint32_t steps = effort().steps == 0 ? steps_ : effort().steps;
+    taken_ += steps;
     const float ratio = (std::max(meanPrediction, 0.0f) + kDark) / (std::max(meanTarget, 0.0f) + kDark);
     const float disagreement = std::abs(std::log(ratio));
     const float range = std::max(config_.full - config_.threshold, 1e-6f);
@@ -26,11 +27,15 @@ void Adaptation::observe(float meanPrediction, float meanTarget) {
         disagreement > config_.threshold ? std::min((disagreement - config_.threshold) / range, 1.0f) : 0.0f;
     urgency_ = std::max(now, config_.calming * urgency_);
     if (urgency_ < 0.01f) urgency_ = 0.0f; // exactly as configured, at last
+    agreed_ = (1.0 - urgency_) * (agreed_ + steps);
 }
 
 TrainingEffort Adaptation::effort() const {
-    if (!config_.on || urgency_ == 0.0f) return {};
     TrainingEffort effort;
+    if (!config_.on) return effort;
+    if (config_.settling > 0)
+        effort.learningRate = std::clamp(config_.settling / std::max(agreed_, 1.0), kSlowest, 1.0);
+    if (urgency_ == 0.0f) return effort;
     const double most = std::max(config_.mostSteps, steps_);
     effort.steps = static_cast<uint32_t>(std::lround(steps_ + urgency_ * (most - steps_)));
     // What the average remembers, 1 / (1 - decay) steps, shrinks geometrically.

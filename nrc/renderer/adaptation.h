@@ -19,6 +19,9 @@ struct AdaptationConfig {
     float calming = 0.85f;    // share of the urgency that is left after a frame of agreement
     // Steps after which half of the suffixes of a young cache train themselves; 0 = as many as ever at once.
     uint32_t youth = 512;
+    // Steps of agreement from which on the learning rate falls as one over their number, to a fifth (Robbins
+    // and Monro 1951): what wanders by learning's own noise comes to rest. 0 = never.
+    uint32_t settling = 1024;
 };
 
 // Depends on what the frames before have found alone, so that the same frames learn the same.
@@ -38,7 +41,8 @@ private:
     uint32_t steps_;
     double emaDecay_;
     float urgency_ = 0.0f;
-    uint64_t taken_ = 0; // steps
+    uint64_t taken_ = 0;  // steps
+    double agreed_ = 0.0; // of these since something was urgent
 };
 
 } // namespace irradia

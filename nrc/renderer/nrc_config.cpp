@@ -59,6 +59,7 @@ void readAdaptation(JsonFields& outer, const std::string& file, AdaptationConfig
     config.calming =
         static_cast<float>(fields.number("calming", config.calming, {0, 1, NumberRange::HighOpen}));
     config.youth = fields.integer("youth", config.youth, 0, 1u << 20);
+    config.settling = fields.integer("settling", config.settling, 0, 1u << 20);
     fields.finish();
 }
 

@@ -4,7 +4,7 @@
 //      "training": {"records": 65536, "min_records": 4096, "steps": 4, "self_training": "Ema",
 //      "uniform_share": 0},
 //      "adaptation": "off", or {"threshold": 0.3, "full": 0.7, "most_steps": 16, "shortest_ema": 0.9,
-//      "calming": 0.85, "youth": 512},
+//      "calming": 0.85, "youth": 512, "settling": 1024},
 //      "factorise": "on", "shown": "Ema", "model": {...}}
 //
 // where every key may be missing; "model" is what nrc/config.h describes, of gpu::kCacheInputs inputs.

@@ -2,9 +2,9 @@
 
 #include "engine/error.h"
 #include "kernels/nrc.h"
+#include "nrc/checksum.h"
 #include "nrc/encoding_kernels.h"
 #include "nrc/random.h"
-#include <zlib.h>
 
 namespace irradia {
 namespace {
@@ -25,11 +25,6 @@ struct SlicePass {
     Kernel encode;
     std::unique_ptr<Grid> grid; // of a slice that is a grid
 };
-
-uint32_t checksum(std::span<const uint32_t> words, uint32_t before) {
-    return static_cast<uint32_t>(
-        crc32_z(before, reinterpret_cast<const Bytef*>(words.data()), words.size_bytes()));
-}
 
 const char* passName(EncodingType type) {
     switch (type) {
@@ -79,7 +74,7 @@ std::vector<FeatureGrid> Encoding::State::layOutGrids(const Device& device,
         const uint64_t perEntry = slice.config.featuresPerLevel;
         grids.push_back(makeFeatureGrid(slice.config, features / perEntry, device.limits(), touched));
         if (grids.back().kind == gpu::kGridSparse)
-            storedCorners = checksum(grids.back().entries, storedCorners.value_or(0));
+            storedCorners = checksum<uint32_t>(grids.back().entries, storedCorners.value_or(0));
         features = (grids.back().end * perEntry + kGridAlignment - 1) / kGridAlignment * kGridAlignment;
     }
     return grids;

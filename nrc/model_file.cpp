@@ -3,11 +3,11 @@
 #include "engine/error.h"
 #include "engine/image/image.h"
 #include "engine/image/read_file.h"
+#include "nrc/checksum.h"
 #include <algorithm>
 #include <bit>
 #include <cstring>
 #include <span>
-#include <zlib.h>
 
 namespace irradia {
 namespace {
@@ -16,10 +16,6 @@ static_assert(std::endian::native == std::endian::little, "models are stored as 
 
 constexpr std::string_view kMagic = "IRRADNET";
 constexpr uint32_t kVersion = 1;
-
-uint32_t checksum(std::span<const uint8_t> bytes) {
-    return static_cast<uint32_t>(crc32_z(crc32_z(0, nullptr, 0), bytes.data(), bytes.size()));
-}
 
 class Writer {
 public:
@@ -36,7 +32,7 @@ public:
         raw(s.data(), s.size());
     }
     std::vector<uint8_t> finish() {
-        value(checksum(bytes_));
+        value(checksum<uint8_t>(bytes_));
         return std::move(bytes_);
     }
 
@@ -107,7 +103,8 @@ ModelFile readModel(const std::filesystem::path& file, const std::string& shape,
     if (count > bytes.size() / sizeof(float))
         fail(ExitCode::BadData, "{}: the model is cut off", file.string());
     const auto content = reader.raw(count * sizeof(float));
-    if (reader.value<uint32_t>() != checksum(std::span(bytes).first(bytes.size() - sizeof(uint32_t))))
+    if (reader.value<uint32_t>() !=
+        checksum<uint8_t>(std::span(bytes).first(bytes.size() - sizeof(uint32_t))))
         fail(ExitCode::BadData, "{}: the model is damaged (its checksum differs)", file.string());
     if (model.shape != shape)
         fail(ExitCode::BadData, "{}: holds a model of {}, wanted is one of {}", file.string(), model.shape,

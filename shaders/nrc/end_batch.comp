@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// How many records the batch could use, its mean loss and brightness, which a batch without a usable record leaves as they are, and the factor that makes
-// gradients those of the mean. One workgroup, sums in a fixed order.
+// How many records of the batch were used, its mean loss and brightness, which a batch without any leaves as they are, and
+// the factor that makes gradients those of the mean. One workgroup, sums in a fixed order.
 #include "lib/kernel.glsl"
 #include "nrc/state.glsl"
 

@@ -143,6 +143,18 @@ Scene lamp(bool doubleSided, float height, float size) {
     return scene;
 }
 
+// The same as tiles in a slanted plane, fronts downwards.
+Scene tiledLamp(int tiles) {
+    Scene scene;
+    const uint32_t material = reference::addMaterial(scene, reference::lambert(glm::vec3(0.0f), kEmission));
+    const glm::vec3 a(0.5f, 0.2f, 0), b(0, 0, 0.5f);
+    for (int i = 0; i < tiles; ++i)
+        for (int j = 0; j < tiles; ++j)
+            reference::addQuad(scene, material, glm::vec3(-0.7f, 0.4f, -0.9f) + float(i) * a + float(j) * b,
+                               a, b);
+    return scene;
+}
+
 void checkAll(const Scene& scene, const Receiver& receiver, const Vec3& expected,
               bool bsdfSamplingConverges = true) {
     const Estimates estimates = estimate(scene, receiver);
@@ -161,6 +173,13 @@ TEST_CASE("direct light of a lamp, small or near, seen from its front or its bac
         for (const Scene& scene : {lamp(false, 2.0f, 0.5f), lamp(true, 1.0f, 1.5f), lamp(false, 0.2f, 2.0f)})
             checkAll(scene, receiver, Vec3(kEmission) * scatteredFromTriangles(scene, receiver));
     CHECK(test::validatedDevice().validationMessages() == 0);
+}
+
+TEST_CASE("direct light of a lamp of 32 triangles, chosen by their hierarchy") {
+    for (const Receiver& receiver : kReceivers) {
+        const Scene scene = tiledLamp(4);
+        checkAll(scene, receiver, Vec3(kEmission) * scatteredFromTriangles(scene, receiver));
+    }
 }
 
 TEST_CASE("direct light of a constant environment is its radiance times the albedo") {

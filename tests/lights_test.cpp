@@ -1,5 +1,8 @@
 // Light sampling in the shaders: what is chosen how often, the densities it claims, and direct light by it.
+#include "engine/scene/light_records.h"
+#include "engine/scene/light_tree.h"
 #include "kernels/shaders.h"
+#include "tests/reference/light_tree.h"
 #include "tests/reference/lights.h"
 #include "tests/reference/statistics.h"
 #include "tests/support/light_harness.h"
@@ -7,6 +10,7 @@
 #include <algorithm>
 #include <catch2/catch_test_macros.hpp>
 #include <cmath>
+#include <numeric>
 
 using namespace irradia;
 using reference::kPi;
@@ -16,7 +20,8 @@ using test::toFloats;
 namespace {
 
 constexpr float kFarAway = 1e30f;
-const double kLevel = reference::sidakLevel(0.01, 2); // of each test of distribution
+const double kLevel = reference::sidakLevel(0.01, 5); // of each test of distribution
+constexpr double kConeRounding = 0.01; // of octahedral axes, some 1e-4: it shows where a cone just ends
 
 struct Sample {
     Vec3 direction;
@@ -48,6 +53,22 @@ std::vector<Sample> drawLights(const Scene& scene, const glm::vec3& origin, uint
     return samples;
 }
 
+// The hierarchy of a scene all of whose triangles emit.
+LightTree treeOf(const Scene& scene) {
+    std::vector<TreeLight> lights;
+    for (const Triangle& t : scene.triangles) {
+        const Material& m = scene.materials[t.material];
+        TreeLight light;
+        for (int k = 0; k < 3; ++k) light.corners[k] = Vec3(scene.vertices[t.vertex[k]].position);
+        const auto& [a, b, c] = light.corners;
+        light.isTwoSided = m.doubleSided;
+        light.power = 0.5 * glm::length(glm::cross(b - a, c - a)) * reference::luminance(Vec3(m.emission)) *
+                      (m.doubleSided ? 2.0 : 1.0);
+        lights.push_back(light);
+    }
+    return buildLightTree(lights);
+}
+
 struct Agreement {
     double seen = 0.0;     // share of samples whose ray meets the sampled point and nothing before it
     double agreeing = 0.0; // share of these whose density is the one that the ray finds and the reference's
@@ -57,6 +78,11 @@ Agreement compareDensities(const Scene& scene, const glm::vec3& origin) {
     const reference::Lights lights(scene);
     const std::vector<Sample> samples = drawLights(scene, origin, 50000, Rays::Cast);
     const bool isConstant = scene.environment.texels.empty(); // the reference samples it another way
+    const bool hasTree = scene.triangles.size() >= kLightTreeFrom;
+    const std::vector<double> chances =
+        hasTree ? reference::lightChances(treeOf(scene), Vec3(origin)) : std::vector<double>{};
+    // Rounding in distances and in cosines down to 0.1.
+    const double tolerance = hasTree ? kConeRounding : 1e-4;
     double seen = 0.0, agreeing = 0.0;
     for (const Sample& s : samples) {
         REQUIRE((s.pdf > 0.0 && std::abs(glm::length(s.direction) - 1.0) < 1e-6));
@@ -64,11 +90,13 @@ Agreement compareDensities(const Scene& scene, const glm::vec3& origin) {
         ++seen;
         double exact = s.pdf;
         if (!s.isEnvironment())
-            exact = lights.trianglePdf(s.hitPrimitive, s.direction, s.hitDistance);
+            exact = hasTree ? lights.trianglePdf(s.hitPrimitive, s.direction, s.hitDistance,
+                                                 chances[s.hitPrimitive])
+                            : lights.trianglePdf(s.hitPrimitive, s.direction, s.hitDistance);
         else if (!isConstant)
             exact = lights.environmentPdf(s.direction);
-        // Rounding in distances and in cosines down to 0.1.
-        if (std::max(std::abs(s.hitPdf - s.pdf), std::abs(exact - s.pdf)) <= 1e-4 * s.pdf) ++agreeing;
+        if (std::abs(s.hitPdf - s.pdf) <= 1e-4 * s.pdf && std::abs(exact - s.pdf) <= tolerance * s.pdf)
+            ++agreeing;
     }
     return {seen / double(samples.size()), agreeing / seen};
 }
@@ -96,18 +124,49 @@ double meanLuminance(const Environment& e, int x, int y) {
     return sum / (kPoints * kPoints);
 }
 
+struct Choice {
+    uint32_t light;
+    double chance; // with which it was chosen, 0 = none
+    double found;  // that a ray which meets it finds
+};
+
+std::vector<Choice> chooseLights(const Scene& scene, const glm::vec3& point, uint32_t count) {
+    test::LightHarness harness(scene, kernels::lights_choose);
+    gpu::LightHarnessParams params{};
+    params.origin = glm::vec4(point, 0.0f);
+    params.count = count;
+    std::vector<Choice> choices;
+    for (const glm::uvec4& record : harness.run(params, 6, count))
+        choices.push_back({record.x, toFloats(record).y, toFloats(record).z});
+    return choices;
+}
+
+// The bins expected to hold fewer than 100 become one.
+void lumpRare(std::vector<double>& counts, std::vector<double>& expected) {
+    std::vector<double> c(1), e(1);
+    for (size_t i = 0; i < counts.size(); ++i) {
+        const bool isRare = expected[i] < 100.0;
+        if (isRare)
+            c[0] += counts[i], e[0] += expected[i];
+        else
+            c.push_back(counts[i]), e.push_back(expected[i]);
+    }
+    counts = c, expected = e;
+}
+
 } // namespace
 
-TEST_CASE("500 emitters are chosen by power") {
-    const Scene scene = test::manyEmitters(500);
+TEST_CASE("few emitters are chosen by power") {
+    constexpr uint32_t kCount = kLightTreeFrom - 1;
+    const Scene scene = test::manyEmitters(kCount);
     constexpr uint32_t kSamples = 1u << 20;
-    std::vector<double> counts(500), expected(500);
+    std::vector<double> counts(kCount), expected(kCount);
     // An emitter is known by its blue; the back of one-sided ones, which is black, faces away from the
     // origin.
     for (const Sample& s : drawLights(scene, glm::vec3(0.0f), kSamples, Rays::None))
         counts.at(static_cast<size_t>(std::lround(s.radiance.b)) - 1) += 1.0;
     double total = 0.0;
-    for (size_t i = 0; i < 500; ++i) {
+    for (size_t i = 0; i < kCount; ++i) {
         const Material& m = scene.materials[i];
         const Vec3 p0(scene.vertices[3 * i].position), p1(scene.vertices[3 * i + 1].position);
         const Vec3 p2(scene.vertices[3 * i + 2].position);
@@ -117,8 +176,36 @@ TEST_CASE("500 emitters are chosen by power") {
     }
     for (double& e : expected) e *= kSamples / total;
     CHECK(reference::chiSquareTest(counts, expected).pValue > kLevel);
-    for (size_t i = 0; i < 500; i += 2) expected[i] *= 1.05; // planted
+    for (size_t i = 0; i < kCount; i += 2) expected[i] *= 1.05; // planted
     CHECK(reference::chiSquareTest(counts, expected).pValue < 1e-6);
+}
+
+TEST_CASE("many emitters are chosen as their hierarchy's twin says") {
+    const Scene scene = test::manyEmitters(500);
+    constexpr uint32_t kSamples = 1u << 20;
+    // From the first point all lights lie 2 away; from the second and the third some show their backs.
+    for (const glm::vec3& point :
+         {glm::vec3(0.0f), glm::vec3(1.9f, 0.1f, -0.2f), glm::vec3(-7.0f, 3.0f, 2.0f)}) {
+        const std::vector<double> chances = reference::lightChances(treeOf(scene), Vec3(point));
+        std::vector<double> counts(501), expected(501); // the last: the way down met no light
+        double worst = 0.0, worstFound = 0.0;
+        for (const Choice& c : chooseLights(scene, point, kSamples)) {
+            counts[c.chance > 0.0 ? c.light : 500] += 1.0;
+            if (c.chance == 0.0) continue;
+            worst = std::max(worst, std::abs(c.chance - chances[c.light]) / (chances[c.light] + 1e-4));
+            worstFound = std::max(worstFound, std::abs(c.found / c.chance - 1.0));
+        }
+        INFO("from " << point.x << ": chances off by " << worst << ", found ones by " << worstFound);
+        CHECK(worst < kConeRounding);
+        CHECK(worstFound < 1e-5); // rounding of some ten factors
+        for (size_t i = 0; i < 500; ++i) expected[i] = kSamples * chances[i];
+        expected[500] = kSamples * std::max(1.0 - std::accumulate(chances.begin(), chances.end(), 0.0), 0.0);
+        lumpRare(counts, expected);
+        CHECK(counts.size() > 20);
+        CHECK(reference::chiSquareTest(counts, expected).pValue > kLevel);
+        for (size_t i = 0; i < counts.size(); i += 2) expected[i] *= 1.05; // planted
+        CHECK(reference::chiSquareTest(counts, expected).pValue < 1e-6);
+    }
 }
 
 TEST_CASE("environment texels are chosen by luminance and solid angle, and points in them uniformly") {
@@ -159,7 +246,8 @@ TEST_CASE("a light sample's density is the one that a ray in its direction finds
         CHECK(agreement.seen > 0.9);
         CHECK(agreement.agreeing > 0.9995); // all but directions that rounding puts into a neighbouring texel
     };
-    Scene scene = test::manyEmitters(24);
+    checkScene(test::manyEmitters(24));
+    Scene scene = test::manyEmitters(kLightTreeFrom - 1);
     checkScene(scene);
     scene.environment.constant = glm::vec3(0.5f, 0.6f, 0.7f);
     checkScene(scene);

@@ -240,12 +240,52 @@ TEST_CASE("pictures beyond the budget are halved, largest first, and keep their 
     CHECK(warnings.size() == 3);
 }
 
-TEST_CASE("lights have the mass of their power, the environment's texels that of luminance and solid angle") {
+TEST_CASE("from some number of lights on their hierarchy follows them, bounds not narrower than its own") {
     const Scene scene = test::manyEmitters(100);
     const SceneRecords records = packScene(scene);
-    REQUIRE(records.lights.size() == 100);
-    double total = 0.0;
+    CHECK((records.lightCount == 100 && records.needs.lightTree));
+    REQUIRE(records.lights.size() == 100 + 199 * gpu::kLightNodeRecords);
     for (uint32_t i = 0; i < 100; ++i) {
+        CHECK(records.lights[i].z == i); // its primitive
+        CHECK(records.geometry[i * gpu::kGeometryRecords + 1].w == i);
+        uint32_t node = 0, trail = records.lights[i].x;
+        while (true) {
+            const glm::uvec4& bounds = records.lights[100 + node * gpu::kLightNodeRecords];
+            const glm::uvec4& cone = records.lights[101 + node * gpu::kLightNodeRecords];
+            const glm::vec4 sphere = floats(bounds);
+            for (uint32_t k = 0; k < 3; ++k) {
+                const Vec3 corner(scene.vertices[3 * i + k].position);
+                CHECK(glm::distance(corner, Vec3(sphere)) <= double(sphere.w));
+            }
+            const Vec3 p0(scene.vertices[3 * i].position), p1(scene.vertices[3 * i + 1].position);
+            const Vec3 normal =
+                glm::normalize(glm::cross(p1 - p0, Vec3(scene.vertices[3 * i + 2].position) - p0));
+            const double cosSpread = floats(cone).y;
+            if (scene.materials[i].doubleSided)
+                CHECK(cosSpread == -1.0);
+            else
+                CHECK(std::acos(std::min(glm::dot(decodeOctahedral(cone.x), normal), 1.0)) <=
+                      std::acos(cosSpread));
+            if ((cone.w & gpu::kLightLeaf) != 0u) {
+                CHECK((cone.w & ~gpu::kLightLeaf) == i);
+                break;
+            }
+            node = cone.w + (trail & 1u);
+            trail >>= 1;
+        }
+        CHECK(trail == 0u);
+    }
+    CHECK(floats(records.lights[101]).z == 1.0f); // the root has all the power
+}
+
+TEST_CASE("lights have the mass of their power, the environment's texels that of luminance and solid angle") {
+    constexpr uint32_t kCount = kLightTreeFrom - 1;
+    const Scene scene = test::manyEmitters(kCount);
+    const SceneRecords records = packScene(scene);
+    REQUIRE(records.lights.size() == kCount);
+    CHECK((records.lightCount == kCount && !records.needs.lightTree));
+    double total = 0.0;
+    for (uint32_t i = 0; i < kCount; ++i) {
         CHECK(records.lights[i].z == i); // its primitive
         CHECK(records.geometry[i * gpu::kGeometryRecords + 1].w == i);
         total += glm::uintBitsToFloat(records.lights[i].w);

@@ -23,7 +23,8 @@ KernelOptions fitted(const SceneNeeds& needs, uint32_t view) {
                          {gpu::kConstantEmitters, needs.emitters},
                          {gpu::kConstantTextures, needs.textures},
                          {gpu::kConstantSpecular, needs.specular},
-                         {gpu::kConstantView, view}};
+                         {gpu::kConstantView, view},
+                         {gpu::kConstantLightTree, needs.lightTree}};
     return options;
 }
 

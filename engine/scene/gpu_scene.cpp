@@ -40,7 +40,7 @@ GpuScene uploadScene(Device& device, const SceneRecords& records, const Bvh& bvh
     scene.needs = records.needs;
     scene.triangles = static_cast<uint32_t>(records.geometry.size() / gpu::kGeometryRecords);
     scene.bvhRoot = bvh.root;
-    scene.lightCount = static_cast<uint32_t>(records.lights.size());
+    scene.lightCount = records.lightCount;
     scene.environmentWidth = std::max(records.environmentWidth, 1u);
     scene.environmentHeight = std::max(records.environmentHeight, 1u);
     scene.environmentProbability = records.environmentProbability;
@@ -74,9 +74,8 @@ void updateMaterials(Device& device, const Scene& state, GpuScene& scene) {
 void updateScene(Device& device, const Scene& state, GpuScene& scene) {
     requirePlanned(state, scene);
     if (!state.materials.empty()) updateMaterials(device, state, scene);
-    std::vector<glm::uvec4> lights;
-    packLights(state, scene.states.emitters, lights);
-    if (!lights.empty()) upload<glm::uvec4>(device, scene.lights, lights);
+    const LightRecords lights = packLights(state, scene.states.emitters);
+    if (lights.count > 0) upload<glm::uvec4>(device, scene.lights, lights.records);
     scene.environmentProbability = environmentProbability(state, scene.needs);
     if (!scene.needs.environment) return;
     SceneRecords records;

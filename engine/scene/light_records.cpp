@@ -1,6 +1,7 @@
 #include "engine/scene/light_records.h"
 
 #include "engine/scene/alias_table.h"
+#include "engine/scene/light_tree.h"
 #include "engine/scene/texture_packing.h"
 #include <algorithm>
 #include <bit>
@@ -40,6 +41,36 @@ double meanLuminance(const Environment& e, int x, int y) {
     return sum;
 }
 
+void packAliasTable(const std::vector<TreeLight>& lights, const std::vector<uint32_t>& primitives,
+                    std::vector<glm::uvec4>& out) {
+    std::vector<double> powers;
+    for (const TreeLight& light : lights) powers.push_back(light.power);
+    const std::vector<AliasEntry> table = buildAliasTable(powers);
+    for (size_t i = 0; i < table.size(); ++i)
+        out.emplace_back(std::bit_cast<uint32_t>(table[i].keep), table[i].alias, primitives[i],
+                         std::bit_cast<uint32_t>(static_cast<float>(table[i].mass)));
+}
+
+// Bounds are a little wider than the tree's, by what rounding them takes.
+void packTree(const std::vector<TreeLight>& lights, const std::vector<uint32_t>& primitives,
+              std::vector<glm::uvec4>& out) {
+    const LightTree tree = buildLightTree(lights);
+    for (size_t i = 0; i < lights.size(); ++i) out.emplace_back(tree.trails[i], 0u, primitives[i], 0u);
+    const double total = tree.nodes[0].power;
+    for (const LightTreeNode& node : tree.nodes) {
+        const glm::vec3 center(node.center);
+        const double reach =
+            std::max({std::abs(node.center.x), std::abs(node.center.y), std::abs(node.center.z)});
+        const auto radius = static_cast<float>(1.000001 * node.radius + 2e-7 * reach);
+        const auto share = static_cast<float>(total > 0.0 ? node.power / total : 0.0);
+        out.push_back(std::bit_cast<glm::uvec4>(glm::vec4(center, radius)));
+        out.emplace_back(packOctahedral(glm::vec3(node.axis)),
+                         std::bit_cast<uint32_t>(static_cast<float>(std::cos(node.spread))),
+                         std::bit_cast<uint32_t>(share),
+                         node.isLeaf ? gpu::kLightLeaf | node.child : node.child);
+    }
+}
+
 } // namespace
 
 std::vector<double> emissiveLuminances(const Scene& scene) {
@@ -62,28 +93,29 @@ float environmentProbability(const Scene& scene, const SceneNeeds& needs) {
     return scene.environment.isBlack() ? 0.0f : 0.5f;
 }
 
-std::vector<uint32_t> packLights(const Scene& scene, const std::vector<bool>& emitters,
-                                 std::vector<glm::uvec4>& lights) {
+LightRecords packLights(const Scene& scene, const std::vector<bool>& emitters) {
     const std::vector<double> luminances = emissiveLuminances(scene);
-    std::vector<uint32_t> lightOf(scene.triangles.size(), gpu::kNoLight);
-    std::vector<double> powers;
+    LightRecords out;
+    out.lightOf.resize(scene.triangles.size(), gpu::kNoLight);
+    std::vector<TreeLight> lights;
     std::vector<uint32_t> primitives;
     for (size_t i = 0; i < scene.triangles.size(); ++i) {
         const Triangle& t = scene.triangles[i];
         if (!emitters[t.material]) continue;
-        const glm::dvec3 p0(scene.vertices[t.vertex.x].position);
-        const double area =
-            0.5 * glm::length(glm::cross(glm::dvec3(scene.vertices[t.vertex.y].position) - p0,
-                                         glm::dvec3(scene.vertices[t.vertex.z].position) - p0));
-        lightOf[i] = static_cast<uint32_t>(powers.size());
-        powers.push_back(area * luminances[t.material]);
+        TreeLight light;
+        for (int k = 0; k < 3; ++k) light.corners[k] = scene.vertices[t.vertex[k]].position;
+        const auto& [a, b, c] = light.corners;
+        light.power = 0.5 * glm::length(glm::cross(b - a, c - a)) * luminances[t.material];
+        light.isTwoSided = scene.materials[t.material].doubleSided;
+        out.lightOf[i] = out.count++;
+        lights.push_back(light);
         primitives.push_back(static_cast<uint32_t>(i));
     }
-    const std::vector<AliasEntry> table = buildAliasTable(powers);
-    for (size_t i = 0; i < table.size(); ++i)
-        lights.emplace_back(std::bit_cast<uint32_t>(table[i].keep), table[i].alias, primitives[i],
-                            std::bit_cast<uint32_t>(static_cast<float>(table[i].mass)));
-    return lightOf;
+    if (out.count >= kLightTreeFrom)
+        packTree(lights, primitives, out.records);
+    else
+        packAliasTable(lights, primitives, out.records);
+    return out;
 }
 
 void packEnvironment(const Environment& environment, SceneRecords& out) {

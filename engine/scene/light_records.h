@@ -1,5 +1,5 @@
-// The lights of a scene as alias tables: emissive triangles by power, environment texels by radiance and
-// solid angle.
+// The lights of a scene: emissive triangles as an alias table by power or as a hierarchy, environment texels
+// as an alias table by radiance and solid angle.
 #pragma once
 
 #include "engine/scene/scene_records.h"
@@ -9,11 +9,20 @@ namespace irradia {
 // Per material: mean luminance that one side emits, times the number of sides that do.
 std::vector<double> emissiveLuminances(const Scene& scene);
 
-// Appends one record per triangle whose material is among the emitters; returns the light index of every
-// triangle, gpu::kNoLight for the others. Power = area x mean luminance of the emission (of the whole
-// emissive texture) x sides; a light without power has a record, and is never chosen while another has some.
-std::vector<uint32_t> packLights(const Scene& scene, const std::vector<bool>& emitters,
-                                 std::vector<glm::uvec4>& lights);
+// From this many emissive triangles on, a hierarchy chooses among them: of fewer (the two of a lamp that is a rectangle) it
+// lowers the error by nothing, at up to 15 % of a frame.
+inline constexpr uint32_t kLightTreeFrom = 8;
+
+struct LightRecords {
+    std::vector<glm::uvec4> records; // one per light, then the hierarchy's nodes if there is one
+    std::vector<uint32_t> lightOf; // per triangle: its light, gpu::kNoLight where its material does not emit
+    uint32_t count = 0;            // lights
+};
+
+// Every triangle whose material is among the emitters is a light. Power = area x mean luminance of the
+// emission (of the whole emissive texture) x sides; a light without power is never chosen while another has
+// some.
+LightRecords packLights(const Scene& scene, const std::vector<bool>& emitters);
 
 // Of a light sample going to the environment: a half where triangles emit too.
 float environmentProbability(const Scene& scene, const SceneNeeds& needs);

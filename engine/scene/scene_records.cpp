@@ -23,17 +23,6 @@ glm::uvec4 record(const glm::vec4& v) {
     return {bits(v.x), bits(v.y), bits(v.z), bits(v.w)};
 }
 
-// Octahedral map of a unit vector (Cigolle et al. 2014).
-uint32_t packOctahedral(const glm::vec3& n) {
-    const float sum = std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
-    if (!(sum > 0.0f)) return gpu::kNoTangent;
-    glm::vec2 p(n.x / sum, n.y / sum);
-    if (n.z < 0.0f)
-        p = {(1.0f - std::abs(p.y)) * (p.x >= 0.0f ? 1.0f : -1.0f),
-             (1.0f - std::abs(p.x)) * (p.y >= 0.0f ? 1.0f : -1.0f)};
-    return glm::packSnorm2x16(p);
-}
-
 void packGeometry(const Scene& scene, const std::vector<uint32_t>& lightOf, SceneRecords& out) {
     out.geometry.reserve(scene.triangles.size() * gpu::kGeometryRecords);
     for (size_t i = 0; i < scene.triangles.size(); ++i) {
@@ -105,6 +94,16 @@ void requireBinding(const std::vector<T>& part, const char* what) {
 
 } // namespace
 
+uint32_t packOctahedral(const glm::vec3& n) {
+    const float sum = std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
+    if (!(sum > 0.0f)) return gpu::kNoTangent;
+    glm::vec2 p(n.x / sum, n.y / sum);
+    if (n.z < 0.0f)
+        p = {(1.0f - std::abs(p.y)) * (p.x >= 0.0f ? 1.0f : -1.0f),
+             (1.0f - std::abs(p.x)) * (p.y >= 0.0f ? 1.0f : -1.0f)};
+    return glm::packSnorm2x16(p);
+}
+
 void PlannedStates::include(const Scene& state) {
     const std::vector<double> luminances = emissiveLuminances(state);
     emitters.resize(luminances.size(), false);
@@ -124,16 +123,20 @@ SceneRecords packScene(const Scene& scene, const PlannedStates& states) {
     SceneRecords out;
     out.states = states;
     out.states.include(scene);
-    const std::vector<uint32_t> lightOf = packLights(scene, out.states.emitters, out.lights);
-    out.needs.emitters = !out.lights.empty();
+    LightRecords lights = packLights(scene, out.states.emitters);
+    out.lights = std::move(lights.records);
+    out.lightCount = lights.count;
+    out.needs.emitters = lights.count > 0;
+    out.needs.lightTree = lights.count >= kLightTreeFrom;
     packMaterials(scene, out);
-    packGeometry(scene, lightOf, out);
+    packGeometry(scene, lights.lightOf, out);
     if (out.needs.textures != 0) packAttributes(scene, out);
     out.needs.environment = out.states.environment;
     if (out.needs.environment) packEnvironment(scene.environment, out);
     out.environmentProbability = environmentProbability(scene, out.needs);
     requireBinding(out.geometry, "geometry");
     requireBinding(out.attributes, "texture coordinates");
+    requireBinding(out.lights, "emissive triangles");
     requireBinding(out.environment, "environment");
     return out;
 }

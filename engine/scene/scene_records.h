@@ -13,6 +13,7 @@ namespace irradia {
 struct SceneNeeds {
     bool environment = false; // light from outside
     bool emitters = false;    // emissive triangles
+    bool lightTree = false;   // so many that a hierarchy chooses among them
     uint32_t textures = 0;    // mask of gpu::kBaseColorTexture, ...
     bool specular = false;
 };
@@ -37,6 +38,7 @@ struct SceneRecords {
     std::vector<glm::uvec4> environment;
     std::vector<glm::uvec4> environmentAlias;
     std::vector<glm::uvec4> areaTable; // empty unless packAreaTable has added it
+    uint32_t lightCount = 0;           // the first of `lights`; a hierarchy's nodes follow them
     uint32_t environmentWidth = 0;
     uint32_t environmentHeight = 0;
     SceneNeeds needs;
@@ -50,6 +52,9 @@ inline constexpr uint64_t kMaxBindingBytes = 128ull << 20;
 
 // Throws Error(OutOfMemory) naming the part that does not fit one binding.
 SceneRecords packScene(const Scene& scene, const PlannedStates& states = {});
+
+// Octahedral map of a unit vector (Cigolle et al. 2014); of a vector without direction gpu::kNoTangent.
+uint32_t packOctahedral(const glm::vec3& n);
 
 // The first records of a material: all but its textures.
 inline constexpr uint32_t kMaterialValueRecords = 4;

@@ -17,6 +17,13 @@ uvec4 pcg4d(uvec4 v) {
     return v;
 }
 
+// A next random number from one, for sequences whose length nobody knows (the same paper's "pcg").
+uint pcg(uint v) {
+    uint state = v * 747796405u + 2891336453u;
+    uint word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
+    return (word >> 22u) ^ word;
+}
+
 // Blocks of four dimensions: the camera takes block 0, the vertex at the end of ray d blocks 1 + 3 d to 3 + 3 d.
 const uint kCameraBlock = 0u;
 uint lightBlock(uint depth) { return 1u + 3u * depth; }

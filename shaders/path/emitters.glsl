@@ -3,14 +3,21 @@
 #ifndef IRRADIA_PATH_EMITTERS_GLSL
 #define IRRADIA_PATH_EMITTERS_GLSL
 #include "lib/sampling.glsl"
+#include "path/light_tree.glsl"
 #include "path/scene.glsl"
 
 float triangleChoice() { return kHasEnvironment && kHasEmitters ? 1.0 - params.environmentProbability : 1.0; }
 
-// Density per solid angle of sampling a point of a light from distance t, at cosine |cosine| of its normal.
-float trianglePdf(uint light, float area, float t, float cosine) {
-    float mass = uintBitsToFloat(loadRecord(lights, light).w);
-    return mass * t * t / max(area * cosine, 1e-30) * triangleChoice();
+// Of light sampling to choose this light at a point.
+float lightChance(uint light, vec3 point) {
+    if (kHasLightTree) return chanceOfLight(light, point);
+    return uintBitsToFloat(loadRecord(lights, light).w);
+}
+
+// Density per solid angle of sampling a point of a light chosen with some chance, from distance t, at cosine |cosine| of
+// its normal.
+float trianglePdf(float chance, float area, float t, float cosine) {
+    return chance * t * t / max(area * cosine, 1e-30) * triangleChoice();
 }
 
 #endif

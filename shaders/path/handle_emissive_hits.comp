@@ -30,7 +30,8 @@ void main() {
     if (hit.y == kNoPrimitive) return;
     TriangleRecord tri = loadTriangle(hit.y);
     if (tri.light == kNoLight) return;
-    uint path = loadRecord(rays, slot * kRayRecords).w;
+    uvec4 origin = loadRecord(rays, slot * kRayRecords);
+    uint path = origin.w;
     vec4 ray = uintBitsToFloat(loadRecord(rays, slot * kRayRecords + 1u));
     vec3 beta = uintBitsToFloat(loadRecord(rays, slot * kRayRecords + 2u).rgb);
 
@@ -39,8 +40,12 @@ void main() {
     float cosine = -dot(normal, ray.xyz) / doubleArea; // > 0: the front is hit
     vec3 emitted = emittedRadiance(tri.material, cosine > 0.0,
                                    attributesFor(kEmissiveTexture, hit.y, uintBitsToFloat(hit.zw)));
-    float pdf = trianglePdf(tri.light, 0.5 * doubleArea, uintBitsToFloat(hit.x), abs(cosine));
-    float weight = params.depth == 0u ? 1.0 : powerHeuristic(ray.w, pdf);
+    float weight = 1.0;
+    if (params.depth > 0u) {
+        float chance = lightChance(tri.light, uintBitsToFloat(origin.xyz));
+        float pdf = trianglePdf(chance, 0.5 * doubleArea, uintBitsToFloat(hit.x), abs(cosine));
+        weight = powerHeuristic(ray.w, pdf);
+    }
     radiance[path].rgb += beta * emitted * weight;
 #ifdef WITH_CACHE
     if (params.depth > 0u) gatherEmission(path, emitted * weight);

@@ -1,5 +1,5 @@
-// Light sampling: emissive triangles by power, the environment by its texels, both through alias tables (Vose 1991:
-// constant time whatever the number of lights). Bindings: those of emitters.glsl and environment.glsl and
+// Light sampling: the environment by its texels, through an alias table (Vose 1991: constant time whatever their number),
+// emissive triangles by power through another where they are few, by what reaches the point where they are many. Bindings: those of emitters.glsl and environment.glsl and
 // `environmentAlias` (records).
 #ifndef IRRADIA_PATH_LIGHT_SAMPLING_GLSL
 #define IRRADIA_PATH_LIGHT_SAMPLING_GLSL
@@ -28,11 +28,17 @@ LightSample sampleEnvironment(uvec4 random) {
     return LightSample(directionOfEquirect(uv), kFarAway, environmentRadiance(uv), environmentPdf(uv));
 }
 
-LightSample sampleTriangleLight(vec3 origin, uvec4 random) {
+LightChoice chooseTriangleLight(vec3 origin, uvec4 random) {
+    if (kHasLightTree) return chooseLight(origin, random.x);
     uint light = uniformIndex(random.x, params.lightCount);
     uvec4 entry = loadRecord(lights, light);
     light = unitFloat(random.y) < uintBitsToFloat(entry.x) ? light : entry.y;
-    uint primitive = loadRecord(lights, light).z;
+    return LightChoice(light, lightChance(light, origin));
+}
+
+LightSample sampleTriangleLight(vec3 origin, uvec4 random) {
+    LightChoice choice = chooseTriangleLight(origin, random);
+    uint primitive = loadRecord(lights, choice.light).z;
     TriangleRecord tri = loadTriangle(primitive);
     vec2 b = sampleTriangle(vec2(unitFloat(random.z), unitFloat(random.w)));
     vec3 to = tri.p0 + b.x * tri.e1 + b.y * tri.e2 - origin;
@@ -42,7 +48,7 @@ LightSample sampleTriangleLight(vec3 origin, uvec4 random) {
     float doubleArea = length(normal);
     float cosine = -dot(normal, direction) / max(doubleArea, 1e-30); // > 0: seen from the front
     vec3 radiance = emittedRadiance(tri.material, cosine > 0.0, attributesFor(kEmissiveTexture, primitive, b));
-    float pdf = abs(cosine) > 1e-6 ? trianglePdf(light, 0.5 * doubleArea, distance, abs(cosine)) : 0.0;
+    float pdf = abs(cosine) > 1e-6 ? trianglePdf(choice.chance, 0.5 * doubleArea, distance, abs(cosine)) : 0.0;
     return LightSample(direction, distance * (1.0 - 1e-4), radiance, pdf);
 }
 

@@ -10,6 +10,7 @@ SHARED_CONST uint kConstantEmitters = 11u;    // there are emissive triangles
 SHARED_CONST uint kConstantTextures = 12u;    // mask of kBaseColorTexture, ...
 SHARED_CONST uint kConstantSpecular = 13u;    // some material has a specular lobe
 SHARED_CONST uint kConstantView = 14u;        // what is shown: kViewPicture, ...
+SHARED_CONST uint kConstantLightTree = 15u;   // there are enough emissive triangles for a hierarchy
 
 // What the film shows: the picture, or what each path counts in the alpha of its radiance. Vertices of a path are those at which
 // it scatters or asks the cache; the last ray of all only meets emission, and has none.

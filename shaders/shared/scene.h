@@ -32,8 +32,16 @@ SHARED_CONST uint kNoTexture = 0xffffffffu;
 // Texture, 1 record: first texel, width, height, wrap s | wrap t << 2 (0 repeat, 1 mirror, 2 clamp).
 // Texels are four 16-bit floats, linear.
 
-// Emissive triangle, 1 record, an entry of the alias table over power (Vose 1991):
+// Emissive triangle, 1 record: trail, unused, primitive, unused. A trail leads from the root of the hierarchy of lights to
+// the triangle's leaf: bit d = the second child is taken at depth d. Scenes of few lights have no hierarchy, but an alias
+// table over power (Vose 1991):
 //   keep probability (float), alias (light index), primitive, probability mass of this light (float)
+// Node of that hierarchy, from record lightCount on, the root first (engine/scene/light_tree):
+//   0: centre and radius of a sphere around its triangles
+//   1: axis (octahedral) and cosine of a cone that holds their normals, power (share of all), first of two children or
+//      kLightLeaf | light index
+SHARED_CONST uint kLightNodeRecords = 2u;
+SHARED_CONST uint kLightLeaf = 0x80000000u;
 // Environment texel, 1 record: radiance rgb, density = probability mass * texel count (float).
 // Environment alias table, 1 record per texel: keep probability (float), alias, unused.
 // Area table, 1 record per triangle, an entry of the alias table over area: keep probability (float), alias, unused.

@@ -64,11 +64,15 @@ LightSample Lights::sampleTriangle(const Vec3& receiver, Random& random) const {
 
 double Lights::trianglePdf(uint32_t triangle, const Vec3& direction, double distance) const {
     if (!(triangles_.total() > 0.0)) return 0.0;
+    return trianglePdf(triangle, direction, distance, triangles_.probability(triangle));
+}
+
+double Lights::trianglePdf(uint32_t triangle, const Vec3& direction, double distance, double chance) const {
     const TriangleShape& shape = shapes_[triangle];
     // chance / area * distance^2 / cosine, with cross(e1, e2) = 2 area N
     const double projectedArea = 0.5 * std::abs(glm::dot(glm::cross(shape.e1, shape.e2), direction));
     if (projectedArea == 0.0) return 0.0;
-    return (1.0 - environmentShare_) * triangles_.probability(triangle) * distance * distance / projectedArea;
+    return (1.0 - environmentShare_) * chance * distance * distance / projectedArea;
 }
 
 double Lights::environmentPdf(const Vec3& direction) const {

@@ -23,6 +23,8 @@ public:
 
     // Density with which sample() finds that point of a triangle, `distance` away along the unit direction.
     double trianglePdf(uint32_t triangle, const Vec3& direction, double distance) const;
+    // The same had the triangle been chosen with another chance.
+    double trianglePdf(uint32_t triangle, const Vec3& direction, double distance, double chance) const;
     double environmentPdf(const Vec3& direction) const;
 
     Vec3 environment(const Vec3& direction) const { return environment_.radiance(direction); }

@@ -44,7 +44,8 @@ float hitPdf(LightHit hit, vec3 direction) {
     TriangleRecord tri = loadTriangle(hit.primitive);
     vec3 normal = cross(tri.e1, tri.e2);
     float doubleArea = length(normal);
-    return trianglePdf(tri.light, 0.5 * doubleArea, hit.t, abs(dot(normal, direction)) / doubleArea);
+    float chance = lightChance(tri.light, harness.origin.xyz);
+    return trianglePdf(chance, 0.5 * doubleArea, hit.t, abs(dot(normal, direction)) / doubleArea);
 }
 
 LightSample sampleLightFor(uint item, uint index) {

@@ -8,6 +8,7 @@ std::vector<Specialisation> fitted(const SceneNeeds& needs, std::vector<Speciali
     faults.push_back({gpu::kConstantEnvironment, needs.environment});
     faults.push_back({gpu::kConstantEmitters, needs.emitters});
     faults.push_back({gpu::kConstantTextures, needs.textures});
+    faults.push_back({gpu::kConstantLightTree, needs.lightTree});
     return faults;
 }
 

@@ -1,0 +1,17 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Choices of an emissive triangle by the hierarchy of lights at one point.
+#include "lib/kernel.glsl"
+#include "shared/path.h"
+#include "harness.h"
+#include "light_scene.glsl"
+
+RECORDS_WRITE(8, choices); // light, chance, chance that is found for the light
+
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    if (i >= harness.count) return;
+    LightChoice choice = chooseLight(harness.origin.xyz, randomBits(i, 0u, lightBlock(0u), params.seed).x);
+    float found = chanceOfLight(choice.light, harness.origin.xyz);
+    storeRecord(choices, i, uvec4(choice.light, floatBitsToUint(vec2(choice.chance, found)), 0u));
+}

@@ -123,11 +123,13 @@ TEST_CASE("every light that shines on a point may be chosen there, and chances s
     int shining = 0, dark = 0;
     for (int k = 0; k < 1000; ++k) {
         const Vec3 point = 15.0 * random.uniform() * anyDirection(random);
-        const std::vector<double> chances = reference::lightChances(tree, point);
+        const Vec3 normal = anyDirection(random);
+        const std::vector<double> chances = reference::lightChances(tree, {point, normal});
         CHECK(std::accumulate(chances.begin(), chances.end(), 0.0) <= 1.0 + 1e-9);
         for (size_t i = 0; i < lights.size(); ++i) {
             const bool faces = glm::dot(normalOf(lights[i]), point - lights[i].corners[0]) > 0.0;
-            const bool shines = lights[i].power > 0.0 && (faces || lights[i].isTwoSided);
+            const bool isAbove = glm::dot(normal, lights[i].corners[0] - point) > 0.0;
+            const bool shines = lights[i].power > 0.0 && isAbove && (faces || lights[i].isTwoSided);
             if (shines) REQUIRE(chances[i] > 0.0);
             (shines ? shining : dark) += 1;
         }
@@ -141,7 +143,7 @@ TEST_CASE("of a sphere's triangles those that face the point are chosen") {
     // Spheres around parts of the lamp are wider than these, which counts the more the nearer it is.
     for (const auto& [distance, least] : {std::pair(1.5, 0.5), std::pair(4.0, 0.8), std::pair(100.0, 0.9)}) {
         const Vec3 point = distance * glm::normalize(Vec3(0.3, -0.5, 0.7));
-        const std::vector<double> chances = reference::lightChances(tree, point);
+        const std::vector<double> chances = reference::lightChances(tree, {point, -glm::normalize(point)});
         double facing = 0.0, facingPower = 0.0, power = 0.0;
         for (size_t i = 0; i < sphere.size(); ++i) {
             const bool faces = glm::dot(normalOf(sphere[i]), point - sphere[i].corners[0]) > 0.0;
@@ -161,7 +163,8 @@ TEST_CASE("near lamps are chosen before far ones of the same power") {
         const Vec3 corner(i, 1.0, 0.0);
         lamps.push_back({{corner, corner + Vec3(0.1, 0, 0), corner + Vec3(0, 0, 0.1)}, 1.0, false});
     }
-    const std::vector<double> chances = reference::lightChances(buildLightTree(lamps), Vec3(3.0, 0.0, 0.0));
+    const std::vector<double> chances =
+        reference::lightChances(buildLightTree(lamps), {Vec3(3.0, 0.0, 0.0), Vec3(0, 1, 0)});
     CHECK(chances[3] > 0.4); // by power 1/16; by what arrives 0.6
     CHECK(chances[3] > 20.0 * chances[15]);
 }

@@ -20,7 +20,8 @@ using test::toFloats;
 namespace {
 
 constexpr float kFarAway = 1e30f;
-const double kLevel = reference::sidakLevel(0.01, 5); // of each test of distribution
+const Vec3 kNormal = glm::normalize(Vec3(0.2, 0.9, -0.4)); // of the receiver
+const double kLevel = reference::sidakLevel(0.01, 5);      // of each test of distribution
 constexpr double kConeRounding = 0.01; // of octahedral axes, some 1e-4: it shows where a cone just ends
 
 struct Sample {
@@ -41,6 +42,7 @@ std::vector<Sample> drawLights(const Scene& scene, const glm::vec3& origin, uint
     test::LightHarness harness(scene, kernels::lights_sample);
     gpu::LightHarnessParams params{};
     params.origin = glm::vec4(origin, 0.0f);
+    params.normal = glm::vec4(glm::vec3(kNormal), 0.0f);
     params.count = count;
     params.triangleCount = rays == Rays::Cast ? harness.triangles() : 0;
     const auto records = harness.run(params, 5, 3 * size_t(count));
@@ -80,7 +82,7 @@ Agreement compareDensities(const Scene& scene, const glm::vec3& origin) {
     const bool isConstant = scene.environment.texels.empty(); // the reference samples it another way
     const bool hasTree = scene.triangles.size() >= kLightTreeFrom;
     const std::vector<double> chances =
-        hasTree ? reference::lightChances(treeOf(scene), Vec3(origin)) : std::vector<double>{};
+        hasTree ? reference::lightChances(treeOf(scene), {Vec3(origin), kNormal}) : std::vector<double>{};
     // Rounding in distances and in cosines down to 0.1.
     const double tolerance = hasTree ? kConeRounding : 1e-4;
     double seen = 0.0, agreeing = 0.0;
@@ -134,6 +136,7 @@ std::vector<Choice> chooseLights(const Scene& scene, const glm::vec3& point, uin
     test::LightHarness harness(scene, kernels::lights_choose);
     gpu::LightHarnessParams params{};
     params.origin = glm::vec4(point, 0.0f);
+    params.normal = glm::vec4(glm::vec3(kNormal), 0.0f);
     params.count = count;
     std::vector<Choice> choices;
     for (const glm::uvec4& record : harness.run(params, 6, count))
@@ -186,7 +189,7 @@ TEST_CASE("many emitters are chosen as their hierarchy's twin says") {
     // From the first point all lights lie 2 away; from the second and the third some show their backs.
     for (const glm::vec3& point :
          {glm::vec3(0.0f), glm::vec3(1.9f, 0.1f, -0.2f), glm::vec3(-7.0f, 3.0f, 2.0f)}) {
-        const std::vector<double> chances = reference::lightChances(treeOf(scene), Vec3(point));
+        const std::vector<double> chances = reference::lightChances(treeOf(scene), {Vec3(point), kNormal});
         std::vector<double> counts(501), expected(501); // the last: the way down met no light
         double worst = 0.0, worstFound = 0.0;
         for (const Choice& c : chooseLights(scene, point, kSamples)) {

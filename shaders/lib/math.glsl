@@ -33,7 +33,13 @@ Frame frameFromNormal(vec3 n) {
 vec3 toLocal(Frame f, vec3 v) { return vec3(dot(v, f.tangent), dot(v, f.bitangent), dot(v, f.normal)); }
 vec3 toWorld(Frame f, vec3 v) { return v.x * f.tangent + v.y * f.bitangent + v.z * f.normal; }
 
-// Unit vector from two 16-bit snorms (octahedral map, Cigolle et al. 2014).
+// Unit vector to and from two 16-bit snorms (octahedral map, Cigolle et al. 2014).
+uint encodeOctahedral(vec3 n) {
+    vec2 p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
+    vec2 folded = vec2(p.x >= 0.0 ? 1.0 - abs(p.y) : abs(p.y) - 1.0, p.y >= 0.0 ? 1.0 - abs(p.x) : abs(p.x) - 1.0);
+    return packSnorm2x16(n.z >= 0.0 ? p : folded);
+}
+
 vec3 decodeOctahedral(uint code) {
     vec2 p = unpackSnorm2x16(code);
     vec3 v = vec3(p, 1.0 - abs(p.x) - abs(p.y));

@@ -8,9 +8,9 @@
 
 float triangleChoice() { return kHasEnvironment && kHasEmitters ? 1.0 - params.environmentProbability : 1.0; }
 
-// Of light sampling to choose this light at a point.
-float lightChance(uint light, vec3 point) {
-    if (kHasLightTree) return chanceOfLight(light, point);
+// Of light sampling to choose this light.
+float lightChance(uint light, Receiver receiver) {
+    if (kHasLightTree) return chanceOfLight(light, receiver);
     return uintBitsToFloat(loadRecord(lights, light).w);
 }
 

@@ -33,7 +33,7 @@ void main() {
     uvec4 origin = loadRecord(rays, slot * kRayRecords);
     uint path = origin.w;
     vec4 ray = uintBitsToFloat(loadRecord(rays, slot * kRayRecords + 1u));
-    vec3 beta = uintBitsToFloat(loadRecord(rays, slot * kRayRecords + 2u).rgb);
+    uvec4 beta = loadRecord(rays, slot * kRayRecords + 2u);
 
     vec3 normal = cross(tri.e1, tri.e2);
     float doubleArea = length(normal);
@@ -42,11 +42,12 @@ void main() {
                                    attributesFor(kEmissiveTexture, hit.y, uintBitsToFloat(hit.zw)));
     float weight = 1.0;
     if (params.depth > 0u) {
-        float chance = lightChance(tri.light, uintBitsToFloat(origin.xyz));
+        Receiver receiver = Receiver(uintBitsToFloat(origin.xyz), decodeOctahedral(beta.w));
+        float chance = lightChance(tri.light, receiver);
         float pdf = trianglePdf(chance, 0.5 * doubleArea, uintBitsToFloat(hit.x), abs(cosine));
         weight = powerHeuristic(ray.w, pdf);
     }
-    radiance[path].rgb += beta * emitted * weight;
+    radiance[path].rgb += uintBitsToFloat(beta.rgb) * emitted * weight;
 #ifdef WITH_CACHE
     if (params.depth > 0u) gatherEmission(path, emitted * weight);
 #endif

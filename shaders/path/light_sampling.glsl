@@ -28,20 +28,20 @@ LightSample sampleEnvironment(uvec4 random) {
     return LightSample(directionOfEquirect(uv), kFarAway, environmentRadiance(uv), environmentPdf(uv));
 }
 
-LightChoice chooseTriangleLight(vec3 origin, uvec4 random) {
-    if (kHasLightTree) return chooseLight(origin, random.x);
+LightChoice chooseTriangleLight(Receiver receiver, uvec4 random) {
+    if (kHasLightTree) return chooseLight(receiver, random.x);
     uint light = uniformIndex(random.x, params.lightCount);
     uvec4 entry = loadRecord(lights, light);
     light = unitFloat(random.y) < uintBitsToFloat(entry.x) ? light : entry.y;
-    return LightChoice(light, lightChance(light, origin));
+    return LightChoice(light, lightChance(light, receiver));
 }
 
-LightSample sampleTriangleLight(vec3 origin, uvec4 random) {
-    LightChoice choice = chooseTriangleLight(origin, random);
+LightSample sampleTriangleLight(Receiver receiver, uvec4 random) {
+    LightChoice choice = chooseTriangleLight(receiver, random);
     uint primitive = loadRecord(lights, choice.light).z;
     TriangleRecord tri = loadTriangle(primitive);
     vec2 b = sampleTriangle(vec2(unitFloat(random.z), unitFloat(random.w)));
-    vec3 to = tri.p0 + b.x * tri.e1 + b.y * tri.e2 - origin;
+    vec3 to = tri.p0 + b.x * tri.e1 + b.y * tri.e2 - receiver.point;
     float distance = length(to);
     vec3 direction = to / max(distance, 1e-30);
     vec3 normal = cross(tri.e1, tri.e2);
@@ -53,15 +53,15 @@ LightSample sampleTriangleLight(vec3 origin, uvec4 random) {
 }
 
 // One light sample for a vertex: `random` drives it, `choice` in [0, 1) picks the environment or the triangles.
-LightSample sampleLight(vec3 origin, uvec4 random, float choice) {
+LightSample sampleLight(Receiver receiver, uvec4 random, float choice) {
     if (kHasEnvironment && kHasEmitters) {
         LightSample a = sampleEnvironment(random);
-        LightSample b = sampleTriangleLight(origin, random);
+        LightSample b = sampleTriangleLight(receiver, random);
         if (choice < params.environmentProbability) return a;
         return b;
     }
     if (kHasEnvironment) return sampleEnvironment(random);
-    return sampleTriangleLight(origin, random);
+    return sampleTriangleLight(receiver, random);
 }
 
 #endif

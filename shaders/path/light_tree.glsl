@@ -1,4 +1,4 @@
-// Choice of an emissive triangle by what it may send to a point: Conty Estevez and Kulla 2018, "Importance Sampling of Many
+// Choice of an emissive triangle by what it may send to a receiver: Conty Estevez and Kulla 2018, "Importance Sampling of Many
 // Lights with Adaptive Tree Splitting". Bindings: `lights` (records); `params` is a BounceParams.
 #ifndef IRRADIA_PATH_LIGHT_TREE_GLSL
 #define IRRADIA_PATH_LIGHT_TREE_GLSL
@@ -6,34 +6,39 @@
 #include "lib/rng.glsl"
 #include "shared/scene.h"
 
+struct Receiver {
+    vec3 point;
+    vec3 normal; // unit: light comes from its side alone
+};
+
 struct LightBranch {
     float importance;
     uint child;
 };
 
-// Power over squared distance, times the largest cosine between a normal in the node's cone and a direction to the point
-// from within its sphere (eqs. 2 to 4).
-LightBranch lightBranch(uint node, vec3 point) {
+// Cosine of an angle less another, 1 where that is below 0; both from 0 to pi.
+float cosOfExcess(float cosA, float cosB) {
+    float product = max((1.0 - cosA * cosA) * (1.0 - cosB * cosB), 0.0);
+    return cosA >= cosB ? 1.0 : cosA * cosB + sqrt(product);
+}
+
+// Power over squared distance, times two cosines at their largest for a direction to the point from within the node's sphere:
+// to a normal in the node's cone, and to the receiver's normal (eqs. 2 to 4).
+LightBranch lightBranch(uint node, Receiver receiver) {
     uint at = params.lightCount + node * kLightNodeRecords;
     vec4 sphere = uintBitsToFloat(loadRecord(lights, at));
     uvec4 r = loadRecord(lights, at + 1u);
-    vec3 to = point - sphere.xyz;
+    vec3 to = receiver.point - sphere.xyz;
     float squared = dot(to, to);
     float squaredRadius = sphere.w * sphere.w;
-    float cosAxis = clamp(dot(decodeOctahedral(r.x), to) * inversesqrt(max(squared, 1e-30)), -1.0, 1.0);
-    float sinAxis = sqrt(1.0 - cosAxis * cosAxis);
-    float cosSpread = uintBitsToFloat(r.y);
-    float sinSpread = sqrt(max(1.0 - cosSpread * cosSpread, 0.0));
-    float squaredSin = squaredRadius / max(squared, 1e-30); // of the angle that the sphere's radius subtends
-    float cosSphere = sqrt(max(1.0 - squaredSin, 0.0));
-    float sinSphere = sqrt(min(squaredSin, 1.0));
-    // The angle to the axis less the cone's, then less the sphere's, neither below 0.
-    bool inCone = cosAxis >= cosSpread;
-    float cosine = inCone ? 1.0 : cosAxis * cosSpread + sinAxis * sinSpread;
-    float sine = inCone ? 0.0 : sinAxis * cosSpread - cosAxis * sinSpread;
-    cosine = cosine >= cosSphere ? 1.0 : cosine * cosSphere + sine * sinSphere;
-    if (squared <= squaredRadius) cosine = 1.0; // within the sphere
-    return LightBranch(uintBitsToFloat(r.z) * max(cosine, 0.0) / max(max(squared, squaredRadius), 1e-30), r.w);
+    float scale = inversesqrt(max(squared, 1e-30));
+    float cosSphere = sqrt(max(1.0 - squaredRadius * scale * scale, 0.0)); // of the angle that its radius subtends
+    float cosAxis = clamp(dot(decodeOctahedral(r.x), to) * scale, -1.0, 1.0);
+    float cosNormal = clamp(-dot(receiver.normal, to) * scale, -1.0, 1.0);
+    float cosines = max(cosOfExcess(cosOfExcess(cosAxis, uintBitsToFloat(r.y)), cosSphere), 0.0) *
+                    max(cosOfExcess(cosNormal, cosSphere), 0.0);
+    bool isWithin = squared <= squaredRadius;
+    return LightBranch(uintBitsToFloat(r.z) * (isWithin ? 1.0 : cosines) / max(max(squared, squaredRadius), 1e-30), r.w);
 }
 
 struct LightPair {
@@ -43,9 +48,9 @@ struct LightPair {
     bool reaches; // some light of the pair does
 };
 
-LightPair lightPair(uint child, vec3 point) {
-    LightBranch a = lightBranch(child, point);
-    LightBranch b = lightBranch(child + 1u, point);
+LightPair lightPair(uint child, Receiver receiver) {
+    LightBranch a = lightBranch(child, receiver);
+    LightBranch b = lightBranch(child + 1u, receiver);
     float sum = a.importance + b.importance;
     return LightPair(a.importance / max(sum, 1e-37), a.child, b.child, sum > 1e-37);
 }
@@ -54,14 +59,14 @@ uint rootChild() { return loadRecord(lights, params.lightCount + 1u).w; }
 
 struct LightChoice {
     uint light;
-    float chance; // 0 = none of the lights reaches the point
+    float chance; // 0 = none of the lights reaches the receiver
 };
 
-LightChoice chooseLight(vec3 point, uint random) {
+LightChoice chooseLight(Receiver receiver, uint random) {
     uint child = rootChild();
     float chance = 1.0;
     while ((child & kLightLeaf) == 0u) {
-        LightPair pair = lightPair(child, point);
+        LightPair pair = lightPair(child, receiver);
         random = pcg(random);
         bool first = unitFloat(random) < pair.chanceOfFirst;
         chance *= first ? pair.chanceOfFirst : 1.0 - pair.chanceOfFirst;
@@ -72,12 +77,12 @@ LightChoice chooseLight(vec3 point, uint random) {
 }
 
 // Of chooseLight to choose this light.
-float chanceOfLight(uint light, vec3 point) {
+float chanceOfLight(uint light, Receiver receiver) {
     uint trail = loadRecord(lights, light).x;
     uint child = rootChild();
     float chance = 1.0;
     while ((child & kLightLeaf) == 0u) {
-        LightPair pair = lightPair(child, point);
+        LightPair pair = lightPair(child, receiver);
         bool first = (trail & 1u) == 0u;
         chance *= !pair.reaches ? 0.0 : (first ? pair.chanceOfFirst : 1.0 - pair.chanceOfFirst);
         child = first ? pair.first : pair.second;

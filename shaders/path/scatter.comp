@@ -55,12 +55,12 @@ void pushShadowRay(bool alive, vec3 origin, float tMax, vec3 direction, uint pat
     storeRecord(shadowRays, slot + 2u, uvec4(floatBitsToUint(contribution), 0u));
 }
 
-void pushRay(bool alive, vec3 origin, vec3 direction, uint path, vec3 beta, float pdf) {
+void pushRay(bool alive, vec3 origin, vec3 direction, uint path, vec3 beta, float pdf, uint normal) {
     uint slot = pushItem(kRayCounter + 1u - params.queueParity, alive) * kRayRecords;
     if (!alive) return;
     storeRecord(nextRays, slot, uvec4(floatBitsToUint(origin), path));
     storeRecord(nextRays, slot + 1u, uvec4(floatBitsToUint(direction), floatBitsToUint(pdf)));
-    storeRecord(nextRays, slot + 2u, uvec4(floatBitsToUint(beta), 0u));
+    storeRecord(nextRays, slot + 2u, uvec4(floatBitsToUint(beta), normal));
 }
 
 void main() {
@@ -89,12 +89,13 @@ void main() {
     float mendView = diffuseMend(s.bsdf, abcView);
     float pSpecular = kHasSpecular ? specularProbability(s.bsdf, abcView, mendView) : 0.0;
 
+    uint normalCode = encodeOctahedral(s.shadingNormal); // as a ray's emissive hit will find it
     if (kHasEmitters || kHasEnvironment) {
         float choice = kHasEmitters && kHasEnvironment
                            ? unitFloat(randomBits(pixel, params.sampleIndex, lightChoiceBlock(params.depth), params.seed).x)
                            : 0.0;
         LightSample light = sampleLight(
-            origin, randomBits(pixel, params.sampleIndex, lightBlock(params.depth), params.seed), choice);
+            Receiver(origin, decodeOctahedral(normalCode)), randomBits(pixel, params.sampleIndex, lightBlock(params.depth), params.seed), choice);
         vec3 l = toLocal(frame, light.direction);
         float mend = min(mendView, diffuseMend(s.bsdf, reflectanceAt(l.z, s.roughness)));
         BsdfValue value = evaluateBsdf(s.bsdf, v, l, mend, pSpecular, kHasSpecular);
@@ -126,5 +127,5 @@ void main() {
     leave(cached, directLight, throughput / max(survival, 1e-30));
 #endif
     bool survives = scatters && u.w < survival;
-    pushRay(alive && survives, origin, direction, path, nextBeta / max(survival, 1e-30), value.pdf);
+    pushRay(alive && survives, origin, direction, path, nextBeta / max(survival, 1e-30), value.pdf, normalCode);
 }

@@ -7,7 +7,7 @@ SHARED_BEGIN
 // RayQueue item, 3 records:
 //   0: origin xyz, path index (uint)          path index = slot of the path's PixelSampleState in the wave
 //   1: direction xyz (unit), pdf of the BSDF sample that made it (solid angle; 0 for camera rays)
-//   2: throughput beta rgb, unused
+//   2: throughput beta rgb, shading normal of the vertex it leaves (octahedral; of camera rays 0)
 SHARED_CONST uint kRayRecords = 3u;
 
 // Hit, 1 record per RayQueue slot: t (float), primitive (index into Scene::triangles, kNoPrimitive = escaped),

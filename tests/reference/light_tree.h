@@ -7,8 +7,13 @@
 
 namespace irradia::reference {
 
-// Chance of every light to be chosen at a point. They sum to 1, or are all 0 where no light reaches the
-// point; less than 1 where the way down ends at two children of which neither does.
-std::vector<double> lightChances(const LightTree& tree, const Vec3& point);
+struct Receiver {
+    Vec3 point{0.0};
+    Vec3 normal{0, 0, 1}; // unit; light comes from its side alone
+};
+
+// Chance of every light to be chosen at a receiver. They sum to 1, or to less where the way down may end at
+// two children neither of which reaches it.
+std::vector<double> lightChances(const LightTree& tree, const Receiver& receiver);
 
 } // namespace irradia::reference

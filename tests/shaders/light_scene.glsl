@@ -39,19 +39,21 @@ LightHit castRay(vec3 origin, vec3 direction) {
     return hit;
 }
 
+Receiver harnessReceiver() { return Receiver(harness.origin.xyz, harness.normal.xyz); }
+
 // The density that a hit finds for light sampling, as handle_emissive_hits computes it.
 float hitPdf(LightHit hit, vec3 direction) {
     TriangleRecord tri = loadTriangle(hit.primitive);
     vec3 normal = cross(tri.e1, tri.e2);
     float doubleArea = length(normal);
-    float chance = lightChance(tri.light, harness.origin.xyz);
+    float chance = lightChance(tri.light, harnessReceiver());
     return trianglePdf(chance, 0.5 * doubleArea, hit.t, abs(dot(normal, direction)) / doubleArea);
 }
 
 LightSample sampleLightFor(uint item, uint index) {
     uvec4 random = randomBits(item, index, lightBlock(0u), params.seed);
     uint choice = randomBits(item, index, lightChoiceBlock(0u), params.seed).x;
-    LightSample light = sampleLight(harness.origin.xyz, random, unitFloat(choice));
+    LightSample light = sampleLight(harnessReceiver(), random, unitFloat(choice));
     light.pdf *= kPdfFault;
     return light;
 }

@@ -11,7 +11,7 @@ RECORDS_WRITE(8, choices); // light, chance, chance that is found for the light
 void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= harness.count) return;
-    LightChoice choice = chooseLight(harness.origin.xyz, randomBits(i, 0u, lightBlock(0u), params.seed).x);
-    float found = chanceOfLight(choice.light, harness.origin.xyz);
+    LightChoice choice = chooseLight(harnessReceiver(), randomBits(i, 0u, lightBlock(0u), params.seed).x);
+    float found = chanceOfLight(choice.light, harnessReceiver());
     storeRecord(choices, i, uvec4(choice.light, floatBitsToUint(vec2(choice.chance, found)), 0u));
 }

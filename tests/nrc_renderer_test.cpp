@@ -7,6 +7,7 @@
 #include "tests/support/expect_error.h"
 #include "tests/support/gpu_render.h"
 #include "tests/support/validated_device.h"
+#include <algorithm>
 #include <catch2/catch_test_macros.hpp>
 #include <limits>
 
@@ -69,6 +70,31 @@ TEST_CASE("paths that never end in the cache give the path tracer's picture, bit
     const FilmImage film = renderer.tracer().readFilm(), plain = renderPlain(never, 4);
     CHECK(film.mean == plain.mean);
     CHECK(film.variance == plain.variance);
+}
+
+// Of an unfair comparison: were the samples of either method cut at some brightness, its picture would not
+// grow with the lamps.
+TEST_CASE("neither method cuts bright samples: lamps 2^20 times as strong give 2^20 times the picture, to "
+          "the bit") {
+    constexpr float kFactor = 1 << 20;
+    Scene bright = cornell().scene;
+    for (Material& material : bright.materials) material.emission *= kFactor;
+    const GpuScene gpu = uploadScene(device(), packScene(bright), buildBvh(bright), cornell().bounds);
+    NrcOptions never = options(48);
+    never.config.spread = never.config.trainingSpread = std::numeric_limits<float>::infinity();
+    NrcRenderer renderer(device(), gpu, cornell().bounds, never);
+    WavefrontPathTracer tracer(device(), gpu, never.paths);
+    for (uint32_t i = 0; i < 4; ++i) {
+        renderer.renderFrame(cornell().camera, i);
+        tracer.renderFrame(cornell().camera, i);
+    }
+    std::vector<glm::vec3> expected = renderPlain(never, 4).mean;
+    for (glm::vec3& pixel : expected) pixel *= kFactor;
+    const bool isSame = renderer.tracer().readFilm().mean == expected,
+               isSameWithoutCache = tracer.readFilm().mean == expected;
+    CHECK(isSame);
+    CHECK(isSameWithoutCache);
+    CHECK(std::ranges::max(expected, {}, &glm::vec3::r).r > kFactor); // some samples are brighter than 1
 }
 
 TEST_CASE("as a control variate the cache leaves no bias, whatever its weights") {

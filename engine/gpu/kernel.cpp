@@ -41,20 +41,6 @@ void checkCounts(const Device& device, const std::string& name, const std::vecto
              limits.maxPerStageDescriptorStorageBuffers, limits.maxPerStageDescriptorStorageImages);
 }
 
-VkDescriptorSetLayout makeSetLayout(const Device& device, const std::string& name,
-                                    const std::vector<KernelBinding>& bindings) {
-    std::vector<VkDescriptorSetLayoutBinding> slots;
-    for (const KernelBinding& binding : bindings)
-        slots.push_back(
-            {static_cast<uint32_t>(slots.size()), binding.type, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
-    VkDescriptorSetLayoutCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
-    info.bindingCount = static_cast<uint32_t>(slots.size());
-    info.pBindings = slots.data();
-    VkDescriptorSetLayout layout = VK_NULL_HANDLE;
-    check(vkCreateDescriptorSetLayout(device.handle(), &info, nullptr, &layout), "kernel " + name);
-    return layout;
-}
-
 VkPipelineLayout makeLayout(const Device& device, const std::string& name, VkDescriptorSetLayout set,
                             uint32_t pushBytes) {
     const VkPushConstantRange range{VK_SHADER_STAGE_COMPUTE_BIT, 0, pushBytes};
@@ -132,6 +118,20 @@ VkPipeline makePipeline(const Device& device, const std::string& name, std::span
 
 } // namespace
 
+VkDescriptorSetLayout makeSetLayout(const Device& device, const std::string& what,
+                                    const std::vector<KernelBinding>& bindings) {
+    std::vector<VkDescriptorSetLayoutBinding> slots;
+    for (const KernelBinding& binding : bindings)
+        slots.push_back(
+            {static_cast<uint32_t>(slots.size()), binding.type, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
+    VkDescriptorSetLayoutCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
+    info.bindingCount = static_cast<uint32_t>(slots.size());
+    info.pBindings = slots.data();
+    VkDescriptorSetLayout layout = VK_NULL_HANDLE;
+    check(vkCreateDescriptorSetLayout(device.handle(), &info, nullptr, &layout), what);
+    return layout;
+}
+
 Kernel::Kernel(Device& device, const KernelSource& source, const KernelOptions& options)
     : device_(&device)
     , name_(source.name) {
@@ -144,7 +144,7 @@ Kernel::Kernel(Device& device, const KernelSource& source, const KernelOptions& 
     const Constants constants = specialise(name_, reflection, options.constants, workgroupSize_, subgroup);
     bindings_ = std::move(reflection.bindings);
     try {
-        setLayout_ = makeSetLayout(device, name_, bindings_);
+        setLayout_ = makeSetLayout(device, "kernel " + name_, bindings_);
         layout_ = makeLayout(device, name_, setLayout_, pushBytes_);
         pipeline_ = makePipeline(device, name_, spirv, layout_, constants,
                                  options.pinSubgroup && device.canPinSubgroupSize());

@@ -30,6 +30,10 @@ struct KernelBinding {
     std::string name;
 };
 
+// One binding after the other, from 0 on. To be destroyed by the caller; `what` names it in errors.
+VkDescriptorSetLayout makeSetLayout(const Device& device, const std::string& what,
+                                    const std::vector<KernelBinding>& bindings);
+
 struct KernelOptions {
     std::vector<Specialisation> constants;
     uint32_t workgroupSize =

@@ -1,58 +1,55 @@
 #include "engine/graph/descriptor_sets.h"
-#include <array>
+#include <algorithm>
 
 namespace irradia {
 
 DescriptorSets::~DescriptorSets() {
-    if (!device_.abandoned()) vkDestroyDescriptorPool(device_.handle(), pool_, nullptr);
-}
-
-bool DescriptorSets::Counts::holds(const Counts& other) const {
-    return sets >= other.sets && storage >= other.storage && texel >= other.texel && uniform >= other.uniform;
-}
-
-void DescriptorSets::create(const Counts& counts) {
-    vkDestroyDescriptorPool(device_.handle(), pool_, nullptr);
-    pool_ = VK_NULL_HANDLE;
-    // Twice what is needed now, so that frames that differ a little do not make a new pool each.
-    room_ = {2 * counts.sets, 2 * counts.storage + 1, 2 * counts.texel + 1, 2 * counts.uniform + 1};
-    const std::array sizes{VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, room_.storage},
-                           VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER, room_.texel},
-                           VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, room_.uniform}};
-    VkDescriptorPoolCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
-    info.maxSets = room_.sets;
-    info.poolSizeCount = sizes.size();
-    info.pPoolSizes = sizes.data();
-    check(vkCreateDescriptorPool(device_.handle(), &info, nullptr, &pool_), "vkCreateDescriptorPool");
-}
-
-void DescriptorSets::reset(std::span<const PassRecord> passes) {
-    Counts counts;
-    for (const PassRecord& pass : passes) {
-        if (!pass.kernel) continue;
-        ++counts.sets;
-        for (const KernelBinding& binding : pass.kernel->bindings()) {
-            counts.storage += binding.type == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-            counts.texel += binding.type == VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER;
-            counts.uniform += binding.type == VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
-        }
+    if (device_.abandoned()) return;
+    for (const auto& [types, group] : groups_) {
+        for (VkDescriptorPool pool : group.pools) vkDestroyDescriptorPool(device_.handle(), pool, nullptr);
+        vkDestroyDescriptorSetLayout(device_.handle(), group.layout, nullptr);
     }
-    if (!room_.holds(counts)) {
-        create(counts);
-    } else if (pool_ != VK_NULL_HANDLE) {
-        check(vkResetDescriptorPool(device_.handle(), pool_, 0), "vkResetDescriptorPool");
-    }
+}
+
+void DescriptorSets::reset() {
+    for (auto& [types, group] : groups_) group.used = 0;
+}
+
+VkDescriptorSet DescriptorSets::take(const PassRecord& pass) {
+    types_.clear();
+    for (const KernelBinding& binding : pass.kernel->bindings()) types_.push_back(binding.type);
+    Group& group = groups_[types_];
+    if (group.used == group.sets.size()) grow(group, pass);
+    return group.sets[group.used++];
+}
+
+// Twice as many sets as there are.
+void DescriptorSets::grow(Group& group, const PassRecord& pass) {
+    const std::string what = "descriptors of pass " + pass.name;
+    if (group.layout == VK_NULL_HANDLE) group.layout = makeSetLayout(device_, what, pass.kernel->bindings());
+    const auto more = static_cast<uint32_t>(std::max<size_t>(group.sets.size(), 1));
+    std::vector<VkDescriptorPoolSize> sizes;
+    for (const VkDescriptorType type : types_) sizes.push_back({type, more});
+    if (sizes.empty()) sizes.push_back({VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1}); // a pool needs some size
+    VkDescriptorPoolCreateInfo poolInfo{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
+    poolInfo.maxSets = more;
+    poolInfo.poolSizeCount = static_cast<uint32_t>(sizes.size());
+    poolInfo.pPoolSizes = sizes.data();
+    VkDescriptorPool pool = VK_NULL_HANDLE;
+    check(vkCreateDescriptorPool(device_.handle(), &poolInfo, nullptr, &pool), what);
+    group.pools.push_back(pool);
+
+    const std::vector<VkDescriptorSetLayout> layouts(more, group.layout);
+    VkDescriptorSetAllocateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO};
+    info.descriptorPool = pool;
+    info.descriptorSetCount = more;
+    info.pSetLayouts = layouts.data();
+    group.sets.resize(group.sets.size() + more);
+    check(vkAllocateDescriptorSets(device_.handle(), &info, group.sets.data() + group.used), what);
 }
 
 VkDescriptorSet DescriptorSets::make(const PassRecord& pass) {
-    VkDescriptorSetLayout layout = pass.kernel->setLayout();
-    VkDescriptorSetAllocateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO};
-    info.descriptorPool = pool_;
-    info.descriptorSetCount = 1;
-    info.pSetLayouts = &layout;
-    VkDescriptorSet set = VK_NULL_HANDLE;
-    check(vkAllocateDescriptorSets(device_.handle(), &info, &set), "descriptors of pass " + pass.name);
-
+    const VkDescriptorSet set = take(pass);
     const size_t count = pass.bindings.size();
     writes_.assign(count, {VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET});
     buffers_.assign(count, {});

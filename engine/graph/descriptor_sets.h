@@ -1,7 +1,9 @@
-// Descriptor sets of one execution: made for each pass, all given back at the next.
+// The descriptor sets of a frame graph, one for each pass of an execution. They are kept from one to the
+// next, and written again: lavapipe maps memory for each that it makes.
 #pragma once
 
 #include "engine/graph/pass_record.h"
+#include <map>
 
 namespace irradia {
 
@@ -13,24 +15,28 @@ public:
     DescriptorSets(const DescriptorSets&) = delete;
     DescriptorSets& operator=(const DescriptorSets&) = delete;
 
-    // Gives all sets back and makes room for those of `passes`.
-    void reset(std::span<const PassRecord> passes);
+    // An execution begins: none of the sets is in use.
+    void reset();
     VkDescriptorSet make(const PassRecord& pass);
 
 private:
-    struct Counts {
-        uint32_t sets = 0;
-        uint32_t storage = 0;
-        uint32_t texel = 0;
-        uint32_t uniform = 0;
-        bool holds(const Counts& other) const;
+    // Sets of one layout, which is compatible with those of all kernels that bind the same types in the same
+    // order.
+    struct Group {
+        VkDescriptorSetLayout layout = VK_NULL_HANDLE;
+        std::vector<VkDescriptorPool> pools;
+        std::vector<VkDescriptorSet> sets;
+        size_t used = 0;
     };
-    void create(const Counts& counts);
+    using Types = std::vector<VkDescriptorType>;
+
+    VkDescriptorSet take(const PassRecord& pass);
+    void grow(Group& group, const PassRecord& pass);
 
     const Device& device_;
-    VkDescriptorPool pool_ = VK_NULL_HANDLE;
-    Counts room_;
+    std::map<Types, Group> groups_;
     // Reused from pass to pass.
+    Types types_;
     std::vector<VkWriteDescriptorSet> writes_;
     std::vector<VkDescriptorBufferInfo> buffers_;
     std::vector<VkBufferView> views_;

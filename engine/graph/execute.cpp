@@ -158,7 +158,7 @@ void FrameGraph::execute() {
     const std::vector<Barrier> barriers = schedule(s.accesses());
     s.numberRuns();
     const std::vector<size_t> starts = s.slices();
-    s.sets.reset(s.passes);
+    s.sets.reset();
     for (size_t slice = 0; slice < starts.size(); ++slice) {
         const size_t first = starts[slice];
         const size_t end = slice + 1 < starts.size() ? starts[slice + 1] : s.passes.size();

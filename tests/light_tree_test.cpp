@@ -1,8 +1,8 @@
 // The hierarchy of lights: what it bounds, how deep it gets, and that no light that reaches a point is out of
 // its reach.
 #include "engine/scene/light_tree.h"
-#include "tests/reference/light_tree.h"
 #include "tests/reference/random.h"
+#include "tests/support/light_chances.h"
 #include <bit>
 #include <catch2/catch_test_macros.hpp>
 #include <cmath>
@@ -124,7 +124,7 @@ TEST_CASE("every light that shines on a point may be chosen there, and chances s
     for (int k = 0; k < 1000; ++k) {
         const Vec3 point = 15.0 * random.uniform() * anyDirection(random);
         const Vec3 normal = anyDirection(random);
-        const std::vector<double> chances = reference::lightChances(tree, {point, normal});
+        const std::vector<double> chances = test::lightChances(tree, {point, normal});
         CHECK(std::accumulate(chances.begin(), chances.end(), 0.0) <= 1.0 + 1e-9);
         for (size_t i = 0; i < lights.size(); ++i) {
             const bool faces = glm::dot(normalOf(lights[i]), point - lights[i].corners[0]) > 0.0;
@@ -143,7 +143,7 @@ TEST_CASE("of a sphere's triangles those that face the point are chosen") {
     // Spheres around parts of the lamp are wider than these, which counts the more the nearer it is.
     for (const auto& [distance, least] : {std::pair(1.5, 0.5), std::pair(4.0, 0.8), std::pair(100.0, 0.9)}) {
         const Vec3 point = distance * glm::normalize(Vec3(0.3, -0.5, 0.7));
-        const std::vector<double> chances = reference::lightChances(tree, {point, -glm::normalize(point)});
+        const std::vector<double> chances = test::lightChances(tree, {point, -glm::normalize(point)});
         double facing = 0.0, facingPower = 0.0, power = 0.0;
         for (size_t i = 0; i < sphere.size(); ++i) {
             const bool faces = glm::dot(normalOf(sphere[i]), point - sphere[i].corners[0]) > 0.0;
@@ -164,7 +164,7 @@ TEST_CASE("near lamps are chosen before far ones of the same power") {
         lamps.push_back({{corner, corner + Vec3(0.1, 0, 0), corner + Vec3(0, 0, 0.1)}, 1.0, false});
     }
     const std::vector<double> chances =
-        reference::lightChances(buildLightTree(lamps), {Vec3(3.0, 0.0, 0.0), Vec3(0, 1, 0)});
+        test::lightChances(buildLightTree(lamps), {Vec3(3.0, 0.0, 0.0), Vec3(0, 1, 0)});
     CHECK(chances[3] > 0.4); // by power 1/16; by what arrives 0.6
     CHECK(chances[3] > 20.0 * chances[15]);
 }

@@ -2,9 +2,9 @@
 #include "engine/scene/light_records.h"
 #include "engine/scene/light_tree.h"
 #include "kernels/shaders.h"
-#include "tests/reference/light_tree.h"
 #include "tests/reference/lights.h"
 #include "tests/reference/statistics.h"
+#include "tests/support/light_chances.h"
 #include "tests/support/light_harness.h"
 #include "tests/support/light_scenes.h"
 #include <algorithm>
@@ -82,7 +82,7 @@ Agreement compareDensities(const Scene& scene, const glm::vec3& origin) {
     const bool isConstant = scene.environment.texels.empty(); // the reference samples it another way
     const bool hasTree = scene.triangles.size() >= kLightTreeFrom;
     const std::vector<double> chances =
-        hasTree ? reference::lightChances(treeOf(scene), {Vec3(origin), kNormal}) : std::vector<double>{};
+        hasTree ? test::lightChances(treeOf(scene), {Vec3(origin), kNormal}) : std::vector<double>{};
     // Rounding in distances and in cosines down to 0.1.
     const double tolerance = hasTree ? kConeRounding : 1e-4;
     double seen = 0.0, agreeing = 0.0;
@@ -189,7 +189,7 @@ TEST_CASE("many emitters are chosen as their hierarchy's twin says") {
     // From the first point all lights lie 2 away; from the second and the third some show their backs.
     for (const glm::vec3& point :
          {glm::vec3(0.0f), glm::vec3(1.9f, 0.1f, -0.2f), glm::vec3(-7.0f, 3.0f, 2.0f)}) {
-        const std::vector<double> chances = reference::lightChances(treeOf(scene), {Vec3(point), kNormal});
+        const std::vector<double> chances = test::lightChances(treeOf(scene), {Vec3(point), kNormal});
         std::vector<double> counts(501), expected(501); // the last: the way down met no light
         double worst = 0.0, worstFound = 0.0;
         for (const Choice& c : chooseLights(scene, point, kSamples)) {

@@ -19,7 +19,7 @@ double angleBetween(const Vec3& a, const Vec3& b) {
 // Eq. 3 for the lights of a node: power / d^2 cos(theta') cos(theta_i'), theta' = max(theta - theta_o -
 // theta_u, 0), theta_i' = max(theta_i - theta_u, 0), emission over a hemisphere. Within the sphere every
 // direction is possible, and the distance its radius.
-double importance(const LightTreeNode& node, const Receiver& receiver) {
+double importance(const LightNode& node, const Receiver& receiver) {
     const Vec3 v = receiver.point - node.center;
     const double distance = glm::length(v);
     if (distance <= node.radius) return node.power / (node.radius * node.radius);
@@ -29,15 +29,15 @@ double importance(const LightTreeNode& node, const Receiver& receiver) {
            cosine(angleBetween(receiver.normal, -v / distance) - uncertain);
 }
 
-void descend(const LightTree& tree, uint32_t at, double chance, const Receiver& receiver,
+void descend(const std::vector<LightNode>& tree, uint32_t at, double chance, const Receiver& receiver,
              std::vector<double>& chances) {
-    const LightTreeNode& node = tree.nodes[at];
+    const LightNode& node = tree[at];
     if (node.isLeaf) {
         chances[node.child] = chance;
         return;
     }
-    const double first = importance(tree.nodes[node.child], receiver);
-    const double second = importance(tree.nodes[node.child + 1], receiver);
+    const double first = importance(tree[node.child], receiver);
+    const double second = importance(tree[node.child + 1], receiver);
     if (first + second == 0.0) return;
     descend(tree, node.child, chance * first / (first + second), receiver, chances);
     descend(tree, node.child + 1, chance * second / (first + second), receiver, chances);
@@ -45,8 +45,8 @@ void descend(const LightTree& tree, uint32_t at, double chance, const Receiver& 
 
 } // namespace
 
-std::vector<double> lightChances(const LightTree& tree, const Receiver& receiver) {
-    std::vector<double> chances(tree.trails.size(), 0.0);
+std::vector<double> lightChances(const std::vector<LightNode>& tree, const Receiver& receiver) {
+    std::vector<double> chances((tree.size() + 1) / 2, 0.0);
     descend(tree, 0, 1.0, receiver, chances);
     return chances;
 }

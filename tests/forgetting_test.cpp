@@ -48,8 +48,9 @@ const Camera kOtherEnd = reference::lookAt({0, 0, 0}, {3.0f, -0.1f, 0.0f}, 1.1f)
 constexpr uint32_t kSize = 32, kLearning = 150, kAway = 150;
 
 // A network that is global: encoded by frequencies, as in the paper. Grids forget less by themselves.
-NrcOptions options(float share) {
+NrcOptions options(float share, uint32_t seed) {
     NrcOptions options;
+    options.seed = options.paths.seed = seed;
     options.paths.width = options.paths.height = kSize;
     options.paths.maxBounces = 1; // all else ends in the cache
     options.config = nrcPreset("faithful");
@@ -76,8 +77,8 @@ public:
     struct Errors {
         double before = 0.0, after = 0.0; // MAPE of the first end
     };
-    Errors forget(float share) const {
-        NrcRenderer renderer(device(), gpu_, bounds_, options(share));
+    Errors forget(float share, uint32_t seed = 1) const {
+        NrcRenderer renderer(device(), gpu_, bounds_, options(share, seed));
         uint32_t frame = 0;
         for (uint32_t i = 0; i < kLearning; ++i) renderer.renderFrame(kFirstEnd, frame++);
         Errors errors;
@@ -85,6 +86,12 @@ public:
         for (uint32_t i = 0; i < kAway; ++i) renderer.renderFrame(kOtherEnd, frame++);
         errors.after = error(renderer, frame);
         return errors;
+    }
+
+    double forgetsOnAverage(float share) const { // MAPE after, of four seeds
+        double sum = 0.0;
+        for (uint32_t seed = 1; seed <= 4; ++seed) sum += forget(share, seed).after;
+        return sum / 4.0;
     }
 
 private:
@@ -119,7 +126,8 @@ private:
 
 } // namespace
 
-// 0.094 and 0.288 without, 0.097 and 0.200 with a share of 0.01, 0.121 and 0.127 with 0.05.
+// With the full sweep's four seeds, before and after: 0.094 and 0.254 without, 0.095 and 0.153 with a share
+// of 0.05; 0.01 (ten records a frame) leaves 0.259, 0.02 leaves 0.235.
 TEST_CASE("the cache remembers what it has seen with a share of uniform records, and forgets without") {
     const Hall hall;
     const Hall::Errors none = hall.forget(0.0f), twentieth = hall.forget(0.05f);
@@ -129,8 +137,9 @@ TEST_CASE("the cache remembers what it has seen with a share of uniform records,
     CHECK(twentieth.after < 0.65 * none.after);
     CHECK(twentieth.before < 1.6 * none.before); // what is in sight suffers little
     if (!test::fullSweep()) return;
-    const Hall::Errors hundredth = hall.forget(0.01f);
-    INFO("with a share of 0.01 " << hundredth.before << ", " << hundredth.after);
-    CHECK(hundredth.after < 0.95 * none.after);
-    CHECK(hundredth.after > twentieth.after);
+    const double without = hall.forgetsOnAverage(0.0f), hundredth = hall.forgetsOnAverage(0.01f);
+    const double with = hall.forgetsOnAverage(0.05f);
+    INFO("mean of four seeds: " << without << "; with a share of 0.01 " << hundredth << ", of 0.05 " << with);
+    CHECK(with < 0.7 * without);
+    CHECK(with < 0.7 * hundredth);
 }

@@ -37,8 +37,8 @@ struct NrcConfig {
     uint32_t minRecords = 4096;
     uint32_t steps = 4; // of optimisation a frame, when nothing is urgent
     // Share of the records that comes from points uniform over all surfaces instead of from the camera's
-    // paths, so that what is out of sight is not forgotten: 0 = none, 0.01 to 0.05 is enough. The scene needs
-    // its area table.
+    // paths, so that what is out of sight is not forgotten: 0 = none, 0.05 is enough, 0.01 too little. The
+    // scene needs its area table.
     float uniformShare = 0.0f;
     AdaptationConfig adaptation;
     bool factorise = true;               // predictions are multiplied by the reflectance

@@ -9,8 +9,8 @@ namespace irradia {
 // Per material: mean luminance that one side emits, times the number of sides that do.
 std::vector<double> emissiveLuminances(const Scene& scene);
 
-// From this many emissive triangles on, a hierarchy chooses among them: of fewer (the two of a lamp that is a rectangle) it
-// lowers the error by nothing, at up to 15 % of a frame.
+// From this many emissive triangles on, a hierarchy chooses among them: of fewer (the two of a lamp that is a
+// rectangle) it lowers the error by nothing, at up to 15 % of a frame.
 inline constexpr uint32_t kLightTreeFrom = 8;
 
 struct LightRecords {

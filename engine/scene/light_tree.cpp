@@ -28,8 +28,8 @@ struct Box {
     }
 };
 
-// Integral over directions of the cosine to the nearest of a cone's normals (eq. 1, emission over a
-// hemisphere).
+// Integral over directions of the cosine to the nearest of a cone's normals: the paper's orientation
+// measure, emission over a hemisphere.
 double coneMeasure(double spread) {
     const double reach = std::min(spread + 0.5 * std::numbers::pi, std::numbers::pi);
     return 2.0 * std::numbers::pi * (1.0 - std::cos(spread)) +
@@ -118,8 +118,8 @@ private:
     }
 
     // Reorders the part; returns the size of the first half, neither of which is empty. Of three planes, each
-    // through the middle of an axis, the one of least cost (eq. 5, without its factor for thin boxes), or
-    // half of the lights where planes part none or would make the tree too deep.
+    // through the middle of an axis, the one of least cost (surface area orientation heuristic, without its
+    // factor for thin boxes), or half of the lights where planes part none or would make the tree too deep.
     size_t split(Range part, uint32_t depth) const {
         Box box;
         for (const uint32_t i : part) box.add(centroids_[i]);

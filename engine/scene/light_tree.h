@@ -1,7 +1,7 @@
 // Hierarchy over emissive triangles, so that a point's light sample goes where light comes from: bounds,
 // emission cones and importance of Conty Estevez and Kulla 2018, "Importance Sampling of Many Lights with
-// Adaptive Tree Splitting", without the splitting. Nodes are bounded by spheres, which is what their
-// importance uses (eqs. 2 to 4).
+// Adaptive Tree Splitting", without the splitting. Nodes are bounded by spheres, which is what the
+// importance uses.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// Choice of an emissive triangle by what it may send to a receiver: Conty Estevez and Kulla 2018, "Importance Sampling of Many
-// Lights with Adaptive Tree Splitting". Bindings: `lights` (records); `params` is a BounceParams.
+// Choice of an emissive triangle by what it may send to a receiver: Conty Estevez and Kulla 2018, "Importance Sampling of
+// Many Lights with Adaptive Tree Splitting". Bindings: `lights` (records); `params` is a BounceParams.
 #ifndef IRRADIA_PATH_LIGHT_TREE_GLSL
 #define IRRADIA_PATH_LIGHT_TREE_GLSL
 #include "lib/math.glsl"
@@ -22,8 +22,8 @@ float cosOfExcess(float cosA, float cosB) {
     return cosA >= cosB ? 1.0 : cosA * cosB + sqrt(product);
 }
 
-// Power over squared distance, times two cosines at their largest for a direction to the point from within the node's sphere:
-// to a normal in the node's cone, and to the receiver's normal (eqs. 2 to 4).
+// Power over squared distance, times two cosines at their largest for a direction to the point from within the node's
+// sphere: to a normal in the node's cone, and to the receiver's normal: the paper's importance.
 LightBranch lightBranch(uint node, Receiver receiver) {
     uint at = params.lightCount + node * kLightNodeRecords;
     vec4 sphere = uintBitsToFloat(loadRecord(lights, at));

@@ -16,7 +16,7 @@ double angleBetween(const Vec3& a, const Vec3& b) {
     return std::acos(std::clamp(glm::dot(a, b), -1.0, 1.0));
 }
 
-// Eq. 3 for the lights of a node: power / d^2 cos(theta') cos(theta_i'), theta' = max(theta - theta_o -
+// Importance of the lights of a node: power / d^2 cos(theta') cos(theta_i'), theta' = max(theta - theta_o -
 // theta_u, 0), theta_i' = max(theta_i - theta_u, 0), emission over a hemisphere. Within the sphere every
 // direction is possible, and the distance its radius.
 double importance(const LightNode& node, const Receiver& receiver) {

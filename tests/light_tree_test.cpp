@@ -3,7 +3,6 @@
 #include "engine/scene/light_tree.h"
 #include "tests/reference/random.h"
 #include "tests/support/light_chances.h"
-#include <bit>
 #include <catch2/catch_test_macros.hpp>
 #include <cmath>
 #include <numeric>
@@ -116,7 +115,7 @@ TEST_CASE("trails of lights that no plane parts well fit their bits") {
     }
 }
 
-TEST_CASE("every light that shines on a point may be chosen there, and chances sum to one") {
+TEST_CASE("every light that shines on a point may be chosen there, and chances sum to one at most") {
     const std::vector<TreeLight> lights = anyLights(500);
     const LightTree tree = buildLightTree(lights);
     Random random(33);

@@ -1,6 +1,6 @@
-// Light sampling: the environment by its texels, through an alias table (Vose 1991: constant time whatever their number),
-// emissive triangles by power through another where they are few, by what reaches the point where they are many. Bindings: those of emitters.glsl and environment.glsl and
-// `environmentAlias` (records).
+// Light sampling: the environment by its texels, through an alias table (Vose 1991: constant time whatever their number);
+// emissive triangles by power through another where they are few, by what reaches the point where they are many
+// (light_tree.glsl). Bindings: those of emitters.glsl and environment.glsl and `environmentAlias` (records).
 #ifndef IRRADIA_PATH_LIGHT_SAMPLING_GLSL
 #define IRRADIA_PATH_LIGHT_SAMPLING_GLSL
 #include "lib/rng.glsl"

@@ -55,7 +55,6 @@ public:
     const std::vector<KernelBinding>& bindings() const { return bindings_; }
     VkPipeline pipeline() const { return pipeline_; }
     VkPipelineLayout layout() const { return layout_; }
-    VkDescriptorSetLayout setLayout() const { return setLayout_; }
 
 private:
     void destroy();

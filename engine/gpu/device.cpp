@@ -132,6 +132,9 @@ uint32_t Device::maxPinnedWorkgroup() const {
 bool Device::texelRecords() const {
     return state_->texelRecords;
 }
+bool Device::runsInOrder() const {
+    return state_->physical.isLavapipe && !state_->validation;
+}
 bool Device::storesByAddress() const {
     return isCpu() && features().bufferDeviceAddress && features().shaderInt64;
 }

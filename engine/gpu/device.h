@@ -59,6 +59,11 @@ public:
     uint32_t nativeSubgroupSize() const; // of kernels that are not pinned
     bool texelRecords() const;           // which form of the kernels is used
     const OptionalFeatures& features() const;
+    // Each command is done before the next begins: barriers between the passes of a submission change
+    // nothing, and are left out, since for each of them lavapipe wakes all threads of its rasteriser (0.1 ms
+    // a pass with two threads, 0.03 ms without). False under validation, which is to see the barriers that
+    // other devices need.
+    bool runsInOrder() const;
     bool storesByAddress() const; // a CPU that can (shaders/lib/store_by_address.glsl), where it is faster
     const VkPhysicalDeviceLimits& limits() const;
 

@@ -8,11 +8,13 @@
 namespace irradia {
 
 struct Device::State {
-    explicit State(bool validation)
-        : instance(validation) {}
+    explicit State(bool validate)
+        : validation(validate)
+        , instance(validate) {}
     ~State();
     uint64_t memoryLeft() const { return memoryBudget - std::min(memoryUsed, memoryBudget); }
 
+    bool validation;
     Instance instance;
     PhysicalDevice physical;
     uint32_t subgroupSize = 0;

@@ -82,6 +82,7 @@ void readProperties(PhysicalDevice& device, bool sizeControl) {
     device.maxSubgroupSize = control.maxSubgroupSize;
     device.maxSubgroups = control.maxComputeWorkgroupSubgroups;
     device.subgroupSizeControl = (control.requiredSubgroupSizeStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0;
+    device.isLavapipe = driver.driverID == VK_DRIVER_ID_MESA_LLVMPIPE;
     device.description.driver = fmt::format("{} {}", driver.driverName, driver.driverInfo);
     device.description.subgroupSize = subgroup.subgroupSize;
     const bool compute = (subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0;

@@ -11,6 +11,7 @@ struct PhysicalDevice {
     VkPhysicalDeviceProperties properties{};
     DeviceDescription description;
     OptionalFeatures features;
+    bool isLavapipe = false;
     bool subgroupSizeControl = false; // VK_EXT_subgroup_size_control, for compute, with whole subgroups
     uint32_t minSubgroupSize = 0;
     uint32_t maxSubgroupSize = 0;

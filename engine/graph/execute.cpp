@@ -158,13 +158,14 @@ void FrameGraph::execute() {
     const std::vector<Barrier> barriers = schedule(s.accesses());
     s.numberRuns();
     const std::vector<size_t> starts = s.slices();
+    const bool waits = !s.device.runsInOrder();
     s.sets.reset();
     for (size_t slice = 0; slice < starts.size(); ++slice) {
         const size_t first = starts[slice];
         const size_t end = slice + 1 < starts.size() ? starts[slice + 1] : s.passes.size();
         s.beginSubmission(static_cast<uint32_t>(end - first));
         for (size_t i = first; i < end; ++i) {
-            if (barriers[i].needed()) emitBarrier(s.commands, barriers[i]);
+            if (waits && barriers[i].needed()) emitBarrier(s.commands, barriers[i]);
             s.progress.passReached(s.commands);
             s.record(s.passes[i]);
             s.timestamps.passDone(s.commands);

@@ -60,7 +60,6 @@ struct Encoding::State {
     uint64_t features = 0;
     std::optional<uint32_t> storedCorners;
     std::vector<SlicePass> slices;
-    Kernel take;
 
     std::vector<FeatureGrid> layOutGrids(const Device& device, std::span<const glm::vec3> touched);
 };
@@ -100,7 +99,6 @@ Encoding::Encoding(Device& device, const std::vector<EncodingConfig>& parts, uin
         }
         s.slices.push_back(std::move(pass));
     }
-    if (s.features > 0) s.take = Kernel(device, kernels::take_grid_gradient);
 }
 
 Encoding::~Encoding() = default;
@@ -162,18 +160,6 @@ void Encoding::accumulateGradient(FrameGraph& graph, const RowCount& rows, Buffe
             .push(gpu::RowsParams{rows.index, rows.capacity, rows.first, 0, {}})
             .dispatch(uint64_t(rows.capacity) * slice.grid->levels);
     }
-}
-
-void Encoding::takeGradient(FrameGraph& graph, BufferRange sums, BufferRange gradients, BufferRange scale,
-                            uint32_t scaleWord) const {
-    if (featureCount() == 0) return;
-    const auto quads = static_cast<uint32_t>(featureCount() / 4);
-    graph.pass(state_->take)
-        .readWrite({*sums.buffer, sums.offset, sumBytes()})
-        .read(scale)
-        .write({*gradients.buffer, gradients.offset, featureCount() * 4})
-        .push(gpu::TakeGradientParams{quads, scaleWord})
-        .dispatch(quads);
 }
 
 } // namespace irradia

@@ -57,10 +57,6 @@ public:
     uint64_t sumBytes() const; // 8 a feature
     void accumulateGradient(FrameGraph& graph, const RowCount& rows, BufferRange inputs,
                             BufferRange encodedGradient, BufferRange sums) const;
-    // gradients (featureCount() floats) = sums times the float at word `scaleWord` of `scale`, and the sums
-    // are zero again.
-    void takeGradient(FrameGraph& graph, BufferRange sums, BufferRange gradients, BufferRange scale,
-                      uint32_t scaleWord) const;
 
 private:
     struct State;

@@ -11,11 +11,15 @@
 
 namespace irradia {
 
-// Parameters that are learned alike, with all that belongs to each; `count` floats a buffer, a multiple of 4.
+// What a group's `gradients` hold: floats, or the 64-bit sums of Encoding::accumulateGradient, which a step
+// takes and makes zero. Of sums, a parameter whose own is exactly 0 keeps its value and moments.
+enum class GradientForm { Floats, Sums };
+
+// Parameters that are learned alike, with all that belongs to each; `count` of them, a multiple of 4.
 struct ParameterGroup {
     ParameterGroup() = default;
     ParameterGroup(Device& device, const std::string& name, uint64_t count, double learningRate, double l2,
-                   bool sparse);
+                   GradientForm form);
 
     // What a step depends on, and a saved model holds.
     std::array<const Buffer*, 4> learned() const {
@@ -25,7 +29,7 @@ struct ParameterGroup {
     uint64_t count = 0;
     float learningRate = 0;
     float l2 = 0;
-    bool sparse = false; // a parameter whose gradient is exactly 0 keeps its value and moments
+    GradientForm form = GradientForm::Floats;
     Buffer values, gradients, firstMoments, secondMoments, averages;
 };
 
@@ -35,17 +39,27 @@ public:
 
     static gpu::TrainingState initialState();
 
-    // One step from the groups' gradients; whether it happens is in `state` (gpu::TrainingState). The average
+    // One step from the groups' gradients; whether it happens, and the scale of sums, are in `state`
+    // (gpu::TrainingState). The average
     // W_1 .. W_t of decays a_1 .. a_t weighs W_i with (1 - a_i) a_(i+1) .. a_t, over the sum of these
     // weights. emaDecay: instead of the configuration's, in [0, 1); learningRate: times the groups'.
     void step(FrameGraph& graph, BufferRange state, std::span<const ParameterGroup* const> groups,
               std::optional<double> emaDecay = {}, double learningRate = 1.0) const;
 
 private:
-    void measureNorm(FrameGraph& graph, std::span<const ParameterGroup* const> groups) const;
+    // For gradients of one form.
+    struct Kernels {
+        Kernel norm, optimize;
+    };
+    const Kernels& kernelsFor(const ParameterGroup& group) const {
+        return group.form == GradientForm::Sums ? forSums_ : forFloats_;
+    }
+    void measureNorm(FrameGraph& graph, BufferRange state,
+                     std::span<const ParameterGroup* const> groups) const;
 
     OptimizerConfig config_;
-    Kernel gradientNorm_, beginUpdate_, optimize_;
+    Kernel beginUpdate_;
+    Kernels forFloats_, forSums_;
     Buffer partials_; // of the squared norm
 };
 

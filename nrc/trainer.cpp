@@ -62,11 +62,10 @@ struct BatchBuffers {
         , encodedGradient(device, "gradient by encoded inputs",
                           encoding.featureCount() > 0 ? uint64_t(rows) * encoding.width() / 4 * quadBytes
                                                       : 16)
-        , partials(device, "partial weight gradients", network.partialBytes(rows))
-        , featureSums(device, "feature gradient sums", std::max<uint64_t>(encoding.featureCount(), 4) * 8) {}
+        , partials(device, "partial weight gradients", network.partialBytes(rows)) {}
 
     Buffer inputs, targets, usable, encoded, activations, results, resultGradient, rowSums, layerGradients,
-        encodedGradient, partials, featureSums;
+        encodedGradient, partials;
 };
 
 } // namespace
@@ -79,8 +78,10 @@ struct Trainer::State {
         , network(d, c.network, encoding.width(), outputs)
         , loss(makeLoss(d, c, outputs))
         , optimizer(d, c.optimizer)
-        , weights(d, "weights", network.weightCount(), c.optimizer.learningRate, c.optimizer.l2, false)
-        , features(d, "features", encoding.featureCount(), c.optimizer.gridLearningRate, 0.0, true)
+        , weights(d, "weights", network.weightCount(), c.optimizer.learningRate, c.optimizer.l2,
+                  GradientForm::Floats)
+        , features(d, "features", encoding.featureCount(), c.optimizer.gridLearningRate, 0.0,
+                   GradientForm::Sums)
         , partRows(rowsOfPart(d, o.batchRows))
         , batchRows(wholeParts(o.batchRows, partRows))
         , inferRows(paddedRows(o.inferRows))
@@ -201,10 +202,8 @@ void Trainer::State::learn(FrameGraph& graph, uint32_t number, const TrainingEff
     for (uint32_t first = 0; first < batchRows; first += partRows) learnPart(graph, first);
     loss.endBatch(graph, state, batch.rowSums, number);
     network.sumGradients(graph, batchRows, batch.partials, weights.gradients, state, gpu::kGradientScaleWord);
-    if (features.count > 0) {
-        encoding.accumulateGradient(graph, rows, batch.inputs, batch.encodedGradient, batch.featureSums);
-        encoding.takeGradient(graph, batch.featureSums, features.gradients, state, gpu::kGradientScaleWord);
-    }
+    if (features.count > 0)
+        encoding.accumulateGradient(graph, rows, batch.inputs, batch.encodedGradient, features.gradients);
     optimizer.step(graph, state, groups(), effort.emaDecay, effort.learningRate);
     packedIsCurrent = false;
     inferPackedHolds.reset();

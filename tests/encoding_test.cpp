@@ -389,14 +389,6 @@ TEST_CASE("half precision's largest gradients are cut, and its infinities left o
     CHECK(takeCorner(harness) == Pair{gpu::kLargestContribution + 1.0, -gpu::kLargestContribution - 2.0});
 }
 
-TEST_CASE("gradients are multiplied by the scale") {
-    EncodingHarness harness(gridCase(EncodingType::HashGrid, 3, 4, 2, false, Precision::Float));
-    const EncodingBatch batch = harness.randomBatch(100, 13);
-    auto quarter = harness.gradient(batch);
-    for (double& g : quarter) g *= 0.25;
-    CHECK(harness.gradient(batch, 0.25f) == quarter);
-}
-
 TEST_CASE("positions outside of the cube are those at its border, NaN is 0") {
     EncodingHarness harness(gridCase(EncodingType::HashGrid, 3, 4, 2, false, Precision::Float));
     const auto features = harness.randomFeatures(14);

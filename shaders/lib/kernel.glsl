@@ -9,12 +9,13 @@ layout(local_size_x_id = 0) in;
 layout(constant_id = 1) const uint kSubgroupSize = 8;
 
 // RECORDS_READ(binding, name): loadRecord(name, index) -> uvec4.
-// RECORDS_WRITE(binding, name): storeRecord(name, index, uvec4).
+// RECORDS_WRITE(binding, name): storeRecord(name, index, uvec4). RECORDS: both.
 // WORDS_WRITE(binding, name): storeWord(name, index, uint); WORDS_READ: loadWord(name, index) -> uint.
 // HALVES_READ(binding, name): loadHalves(name, index) -> vec4 of four 16-bit floats.
 #ifdef RECORDS_IN_TEXEL
 #define RECORDS_READ(slot, name) layout(set = 0, binding = slot, rgba32ui) readonly uniform uimageBuffer name
 #define RECORDS_WRITE(slot, name) layout(set = 0, binding = slot, rgba32ui) writeonly uniform uimageBuffer name
+#define RECORDS(slot, name) layout(set = 0, binding = slot, rgba32ui) uniform uimageBuffer name
 #define WORDS_READ(slot, name) layout(set = 0, binding = slot, r32ui) readonly uniform uimageBuffer name
 #define WORDS_WRITE(slot, name) layout(set = 0, binding = slot, r32ui) writeonly uniform uimageBuffer name
 #define HALVES_READ(slot, name) layout(set = 0, binding = slot, rgba16f) readonly uniform imageBuffer name
@@ -26,6 +27,7 @@ layout(constant_id = 1) const uint kSubgroupSize = 8;
 #else
 #define RECORDS_READ(slot, name) layout(set = 0, binding = slot, std430) readonly buffer name##Records { uvec4 name[]; }
 #define RECORDS_WRITE(slot, name) layout(set = 0, binding = slot, std430) writeonly buffer name##Records { uvec4 name[]; }
+#define RECORDS(slot, name) layout(set = 0, binding = slot, std430) buffer name##Records { uvec4 name[]; }
 #define WORDS_READ(slot, name) layout(set = 0, binding = slot, std430) readonly buffer name##Words { uint name[]; }
 #define WORDS_WRITE(slot, name) layout(set = 0, binding = slot, std430) writeonly buffer name##Words { uint name[]; }
 #define HALVES_READ(slot, name) layout(set = 0, binding = slot, std430) readonly buffer name##Halves { uvec2 name[]; }

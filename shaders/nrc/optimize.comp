@@ -1,19 +1,43 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_buffer_reference : enable
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : enable
+#pragma variant optimize_by_address BY_ADDRESS
+#pragma variant optimize_from_sums FROM_SUMS
+#pragma variant optimize_from_sums_by_address FROM_SUMS BY_ADDRESS
 // One step of Adam (Kingma and Ba 2015, algorithm 1) and of the average that rendering uses,
 //   Wbar_t = ((1 - alpha) W_t + alpha eta_(t-1) Wbar_(t-1)) / eta_t,  eta_t = 1 - alpha^t,
 // which is unbiased from the first step on (Müller 2021 prints the second term without its eta_t).
+// From sums of gradients a parameter whose sum is exactly 0 keeps its value and moments, and the sums become zero.
 // Parameters that are damaged, by whatever wrote them, become zero: one NaN would otherwise stay in the moments for good.
 #include "lib/kernel.glsl"
 #include "nrc/state.glsl"
 
+// OWN(binding, name): records of which an invocation reads and writes those of its quad alone.
+#ifdef BY_ADDRESS
+#include "lib/store_by_address.glsl"
+#define OWN(slot, name) RECORDS(slot, name)
+#define loadOwn(name, index) loadRecord(name, index)
+#define storeOwn(name, index, record) storeRecordAt(params.name, index, record)
+#else
+#define OWN(slot, name) layout(set = 0, binding = slot, std430) buffer name##Records { uvec4 name[]; }
+#define loadOwn(name, index) name[index]
+#define storeOwn(name, index, record) name[index] = record
+#endif
+
 STATE(0);
+#ifdef FROM_SUMS
+OWN(1, gradients);
+#else
 RECORDS_READ(1, gradients);
-layout(set = 0, binding = 2, std430) buffer Values { vec4 values[]; };
-layout(set = 0, binding = 3, std430) buffer FirstMoments { vec4 firstMoments[]; };
-layout(set = 0, binding = 4, std430) buffer SecondMoments { vec4 secondMoments[]; };
-layout(set = 0, binding = 5, std430) buffer Averages { vec4 averages[]; };
+#endif
+OWN(2, values);
+OWN(3, firstMoments);
+OWN(4, secondMoments);
+OWN(5, averages);
 layout(push_constant) uniform Push { OptimizeParams params; };
+
+#include "nrc/gradient.glsl"
 
 bvec4 within(vec4 v, float limit) { return lessThanEqual(abs(v), vec4(limit)); }
 bvec4 both(bvec4 a, bvec4 b) { return bvec4(uvec4(a) & uvec4(b)); }
@@ -40,7 +64,9 @@ vec4 decayed(vec4 before, vec4 now, float decay) { return (1.0 - decay) * now + 
 
 void update(inout Parameters p, vec4 gradient) {
     bvec4 use = within(gradient, kGradientLimit);
-    if (params.sparse != 0u) use = both(use, notEqual(gradient, vec4(0.0)));
+#ifdef FROM_SUMS
+    use = both(use, notEqual(gradient, vec4(0.0)));
+#endif
     vec4 g = state.clipScale * gradient + params.l2 * p.value;
     vec4 first = decayed(p.first, g, params.beta1);
     vec4 second = decayed(p.second, g * g, params.beta2);
@@ -51,17 +77,31 @@ void update(inout Parameters p, vec4 gradient) {
     p.average = decayed(state.etaEmaBefore * p.average, p.value, params.emaDecay) / state.etaEma;
 }
 
+vec4 takeGradient(uint quad) {
+#ifdef FROM_SUMS
+    uint highQuad = params.quads + quad;
+    ivec4 low = ivec4(loadOwn(gradients, quad)), high = ivec4(loadOwn(gradients, highQuad));
+    storeOwn(gradients, quad, uvec4(0u));
+    if (high != ivec4(0)) storeOwn(gradients, highQuad, uvec4(0u));
+    return gradientFromSums(low, high);
+#else
+    return uintBitsToFloat(loadRecord(gradients, quad));
+#endif
+}
+
 void main() {
     uint quad = gl_GlobalInvocationID.x;
     if (quad >= params.quads || state.batchRows == 0u) return;
-    Parameters p = Parameters(values[quad], firstMoments[quad], secondMoments[quad], averages[quad]);
+    Parameters p = Parameters(uintBitsToFloat(loadOwn(values, quad)), uintBitsToFloat(loadOwn(firstMoments, quad)),
+                              uintBitsToFloat(loadOwn(secondMoments, quad)), uintBitsToFloat(loadOwn(averages, quad)));
+    vec4 gradient = takeGradient(quad);
     heal(p);
     if (state.applied != 0u) {
-        update(p, uintBitsToFloat(loadRecord(gradients, quad)));
+        update(p, gradient);
         heal(p);
     }
-    values[quad] = p.value;
-    firstMoments[quad] = p.first;
-    secondMoments[quad] = p.second;
-    averages[quad] = p.average;
+    storeOwn(values, quad, floatBitsToUint(p.value));
+    storeOwn(firstMoments, quad, floatBitsToUint(p.first));
+    storeOwn(secondMoments, quad, floatBitsToUint(p.second));
+    storeOwn(averages, quad, floatBitsToUint(p.average));
 }

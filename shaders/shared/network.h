@@ -56,11 +56,6 @@ SHARED_CONST uint kAbsentEntry = 0xffffffffu; // of a corner that a sparse grid 
 SHARED_CONST float kGradientUnits = 1048576.0f;    // in 1
 SHARED_CONST float kLargestContribution = 2047.0f; // keeps its units below 2^31
 
-struct TakeGradientParams {
-    uint featureQuads;
-    uint scaleWord; // of the buffer that holds the factor
-};
-
 // weight_gradient: a batch's rows are summed in at most kGradientChunks chunks of chunkRows rows, a multiple of kRowPadding. A
 // pass sums `chunks` of them, from firstChunk on, whose rows are those from `first` on.
 SHARED_CONST uint kGradientChunks = 32u;

@@ -106,7 +106,12 @@ struct OptimizeParams {
     float epsilon;
     float l2;
     float emaDecay;
-    uint sparse; // 1: a parameter whose gradient is exactly 0 keeps its value and moments
+    uint unused;
+    uvec2 values; // addresses, where the kernel stores by them
+    uvec2 firstMoments;
+    uvec2 secondMoments;
+    uvec2 averages;
+    uvec2 gradients;
 };
 
 SHARED_END

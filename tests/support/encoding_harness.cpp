@@ -1,6 +1,7 @@
 #include "tests/support/encoding_harness.h"
 
 #include "tests/reference/random.h"
+#include "tests/support/gradient_sums.h"
 #include <cmath>
 #include <fmt/format.h>
 
@@ -85,20 +86,17 @@ void EncodingHarness::accumulate(const EncodingBatch& batch, uint32_t times) {
     graph.execute();
 }
 
-std::vector<double> EncodingHarness::takeGradient(float scale) {
-    const Buffer scales = makeBuffer<float>(device_, "scales", {1e9f, scale});
-    const std::vector<float> old(encoding_.featureCount(), static_cast<float>(filling_));
-    const Buffer gradients = makeBuffer(device_, "gradients", old);
+std::vector<double> EncodingHarness::takeGradient() {
+    const auto words = download<int32_t>(device_, sums_, 2 * encoding_.featureCount());
     FrameGraph graph(device_);
-    encoding_.takeGradient(graph, sums_, gradients, scales, 1);
+    graph.fill(sums_, 0);
     graph.execute();
-    const auto gradient = download<float>(device_, gradients, old.size());
-    return {gradient.begin(), gradient.end()};
+    return gradientsOf(words);
 }
 
-std::vector<double> EncodingHarness::gradient(const EncodingBatch& batch, float scale) {
+std::vector<double> EncodingHarness::gradient(const EncodingBatch& batch) {
     accumulate(batch);
-    return takeGradient(scale);
+    return takeGradient();
 }
 
 } // namespace irradia::test

@@ -43,9 +43,9 @@ public:
 
     // Adds to the sums of earlier batches.
     void accumulate(const EncodingBatch& batch, uint32_t times = 1);
-    // The sums, which are zero then, times `scale`.
-    std::vector<double> takeGradient(float scale = 1.0f);
-    std::vector<double> gradient(const EncodingBatch& batch, float scale = 1.0f);
+    // The sums, which are zero then.
+    std::vector<double> takeGradient();
+    std::vector<double> gradient(const EncodingBatch& batch);
 
 private:
     RowFormat inputRows() const { return {encoding_.inputs(), Precision::Float}; }

@@ -7,6 +7,7 @@ namespace irradia {
 namespace {
 
 constexpr float kDark = 0.01f;   // in the cache's scale
+constexpr float kMost = 1.5f;    // of `full`: what a single frame, maybe of an outlier, can say
 constexpr double kSlowest = 0.2; // learning rate: regions that come into view are to be learned
 
 } // namespace
@@ -20,12 +21,13 @@ void Adaptation::observe(float meanPrediction, float meanTarget) {
     const uint32_t steps = effort().steps == 0 ? steps_ : effort().steps;
     taken_ += steps;
     const float ratio = (std::max(meanPrediction, 0.0f) + kDark) / (std::max(meanTarget, 0.0f) + kDark);
-    const float disagreement = std::abs(std::log(ratio));
-    const float range = std::max(config_.full - config_.threshold, 1e-6f);
+    const float most = kMost * config_.full;
     // Not a number where a prediction was none: the trainer dropped those records, nothing is urgent.
-    const float now =
-        disagreement > config_.threshold ? std::min((disagreement - config_.threshold) / range, 1.0f) : 0.0f;
-    urgency_ = std::max(now, config_.calming * urgency_);
+    const float now = std::isnan(ratio) ? 0.0f : std::clamp(std::log(ratio), -most, most);
+    disagreement_ = config_.smoothing * disagreement_ + (1.0f - config_.smoothing) * now;
+    const float beyond = std::abs(disagreement_) - config_.threshold;
+    const float range = std::max(config_.full - config_.threshold, 1e-6f);
+    urgency_ = std::max(std::clamp(beyond / range, 0.0f, 1.0f), config_.calming * urgency_);
     if (urgency_ < 0.01f) urgency_ = 0.0f; // exactly as configured, at last
     agreed_ = (1.0 - urgency_) * (agreed_ + steps);
 }

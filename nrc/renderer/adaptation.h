@@ -8,11 +8,13 @@
 
 namespace irradia {
 
-// Disagreement of a frame: |ln((P + 0.01) / (T + 0.01))| of the mean luminance of predictions and targets at
-// the frame's records, both in the cache's scale, where targets are around 1 on average.
+// Disagreement: ln((P + 0.01) / (T + 0.01)) of the mean luminance of predictions and targets at a frame's
+// records, both in the cache's scale, where targets are around 1 on average; averaged over the last frames,
+// since noise goes to both sides and a change to one.
 struct AdaptationConfig {
     bool on = true;
-    float threshold = 0.3f;   // disagreement up to which the noise of a frame's records may reach
+    float smoothing = 0.6f;   // weight of the frames before in that average
+    float threshold = 0.3f;   // size of the average up to which it may be noise
     float full = 0.7f;        // and from which on the urgency is 1
     uint32_t mostSteps = 16;  // of optimisation a frame, at urgency 1
     float shortestEma = 0.9f; // decay of the weights' average per step, at urgency 1
@@ -40,6 +42,7 @@ private:
     AdaptationConfig config_;
     uint32_t steps_;
     double emaDecay_;
+    float disagreement_ = 0.0f;
     float urgency_ = 0.0f;
     uint64_t taken_ = 0;  // steps
     double agreed_ = 0.0; // of these since something was urgent

@@ -51,6 +51,8 @@ void readAdaptation(JsonFields& outer, const std::string& file, AdaptationConfig
     if (json && json->is_string()) config.on = outer.choice("adaptation", config.on, kSwitchNames);
     if (!json || json->is_string()) return;
     JsonFields fields(*json, file, "adaptation");
+    config.smoothing =
+        static_cast<float>(fields.number("smoothing", config.smoothing, {0, 1, NumberRange::HighOpen}));
     config.threshold = static_cast<float>(fields.number("threshold", config.threshold, {0, 100}));
     config.full = static_cast<float>(fields.number("full", config.full, {config.threshold, 100}));
     config.mostSteps = fields.integer("most_steps", config.mostSteps, 1, 64);

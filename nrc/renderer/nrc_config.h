@@ -3,8 +3,8 @@
 //     {"paths": {"spread": 0.01, "training_spread": 0.01, "unbiased_share": 0.0625, "suffix_bounces": 8},
 //      "training": {"records": 65536, "min_records": 4096, "steps": 4, "self_training": "Ema",
 //      "uniform_share": 0},
-//      "adaptation": "off", or {"threshold": 0.3, "full": 0.7, "most_steps": 16, "shortest_ema": 0.9,
-//      "calming": 0.85, "youth": 512, "settling": 1024},
+//      "adaptation": "off", or {"smoothing": 0.6, "threshold": 0.3, "full": 0.7, "most_steps": 16,
+//      "shortest_ema": 0.9, "calming": 0.85, "youth": 512, "settling": 1024},
 //      "factorise": "on", "shown": "Ema", "model": {...}}
 //
 // where every key may be missing; "model" is what nrc/config.h describes, of gpu::kCacheInputs inputs.

@@ -89,6 +89,12 @@ private:
     uint32_t frame_ = 0;
 };
 
+Adaptation afterAgreement(const AdaptationConfig& config) {
+    Adaptation adaptation(config, 4, 0.99);
+    for (int frame = 0; frame < 40; ++frame) adaptation.observe(1.0f, 1.0f);
+    return adaptation;
+}
+
 // Each frame by itself.
 AdaptationConfig unsmoothed() {
     return {.smoothing = 0.0f};
@@ -174,7 +180,7 @@ TEST_CASE("the younger the cache, the more of its suffixes are unbiased") {
 
 TEST_CASE("what goes to both sides is noise, what goes to one is not") {
     // e^0.6 too bright, as much too dark, and so on: beyond the threshold each time.
-    Adaptation adaptation(AdaptationConfig{}, 4, 0.99), plain(unsmoothed(), 4, 0.99);
+    Adaptation adaptation = afterAgreement({}), plain = afterAgreement(unsmoothed());
     for (int frame = 0; frame < 20; ++frame) {
         const float target = std::exp(frame % 2 ? 0.6f : -0.6f);
         adaptation.observe(1.0f, target);
@@ -184,7 +190,7 @@ TEST_CASE("what goes to both sides is noise, what goes to one is not") {
     }
     // One frame is little proof, whatever its target; three are enough.
     const auto urgencies = [](float target) {
-        Adaptation after(AdaptationConfig{}, 4, 0.99);
+        Adaptation after = afterAgreement({});
         std::vector<float> all;
         for (int frame = 0; frame < 3; ++frame) {
             after.observe(1.0f, target);
@@ -198,6 +204,9 @@ TEST_CASE("what goes to both sides is noise, what goes to one is not") {
         CHECK(std::abs(urgency[1] - 0.93f) < 1e-4f); // (0.64 * 1.05 - 0.3) / 0.4
         CHECK(urgency[2] == 1.0f);
     }
+    Adaptation first(AdaptationConfig{}, 4, 0.99);
+    first.observe(0.0f, 1.0f); // all there is to go by
+    CHECK(first.urgency() == 1.0f);
     adaptation.observe(1.0f, NAN); // and does not stay
     for (int frame = 0; frame < 3; ++frame) adaptation.observe(1.0f, 9.0f);
     CHECK(adaptation.urgency() == 1.0f);

@@ -25,7 +25,8 @@ void Adaptation::observe(float meanPrediction, float meanTarget) {
     // Not a number where a prediction was none: the trainer dropped those records, nothing is urgent.
     const float now = std::isnan(ratio) ? 0.0f : std::clamp(std::log(ratio), -most, most);
     disagreement_ = config_.smoothing * disagreement_ + (1.0f - config_.smoothing) * now;
-    const float beyond = std::abs(disagreement_) - config_.threshold;
+    observed_ = config_.smoothing * observed_ + (1.0f - config_.smoothing);
+    const float beyond = std::abs(disagreement_ / observed_) - config_.threshold;
     const float range = std::max(config_.full - config_.threshold, 1e-6f);
     urgency_ = std::max(std::clamp(beyond / range, 0.0f, 1.0f), config_.calming * urgency_);
     if (urgency_ < 0.01f) urgency_ = 0.0f; // exactly as configured, at last

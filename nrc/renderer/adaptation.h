@@ -9,8 +9,8 @@
 namespace irradia {
 
 // Disagreement: ln((P + 0.01) / (T + 0.01)) of the mean luminance of predictions and targets at a frame's
-// records, both in the cache's scale, where targets are around 1 on average; averaged over the last frames,
-// since noise goes to both sides and a change to one.
+// records, both in the cache's scale, where targets are around 1 on average; averaged over the last frames
+// (from the first on without bias, as the weights are), since noise goes to both sides and a change to one.
 struct AdaptationConfig {
     bool on = true;
     float smoothing = 0.6f;   // weight of the frames before in that average
@@ -42,7 +42,8 @@ private:
     AdaptationConfig config_;
     uint32_t steps_;
     double emaDecay_;
-    float disagreement_ = 0.0f;
+    float disagreement_ = 0.0f,
+          observed_ = 0.0f; // sums over frames: of weights times disagreement, of weights
     float urgency_ = 0.0f;
     uint64_t taken_ = 0;  // steps
     double agreed_ = 0.0; // of these since something was urgent

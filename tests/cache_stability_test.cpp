@@ -39,8 +39,8 @@ constexpr uint32_t kGroup = 25; // frames whose mean is judged: of 1e5 paths, ea
 // By then light of 20 bounces and more has come back. What is learned wrong by a share x would show 20 times
 // over at an albedo of 0.95 if all were self-trained; of what is, half the suffixes being unbiased, twice.
 constexpr uint32_t kSettled = 400; // frames
-// Of 8 runs of 2,000 frames, 0.014 is the most seen with `balanced`, 0.025 with `fast`, which takes half as
-// many records in half as many steps.
+// `fast` trains half of its suffixes by its own predictions, on half as many records; of 2,000 frames with
+// each of four seeds, 0.028 is the most seen.
 struct Preset {
     const char* name;
     double tolerance;
@@ -77,7 +77,7 @@ Course render(const Scene& scene, uint32_t frames, uint64_t seed, const Preset& 
 
 TEST_CASE("a closed furnace keeps its radiance while the cache trains itself") {
     for (uint64_t run = 0; run < (fullSweep() ? 8 : 1); ++run) {
-        const Preset& preset = run % 2 == 0 ? kBalanced : kFast;
+        const Preset& preset = run % 2 == 0 ? kFast : kBalanced;
         const Course course = render(furnace(kAlbedo), fullSweep() ? 2000 : 500, 1 + run / 2, preset);
         INFO(fmt::format("{}, seed {}: {:.3f}", preset.name, 1 + run / 2, fmt::join(course.means, " ")));
         CHECK(course.isStableFrom(kSettled, preset.tolerance));

@@ -42,8 +42,8 @@ private:
     AdaptationConfig config_;
     uint32_t steps_;
     double emaDecay_;
-    float disagreement_ = 0.0f,
-          observed_ = 0.0f; // sums over frames: of weights times disagreement, of weights
+    // Sums over frames: of their weights times disagreement, of their weights.
+    float disagreement_ = 0.0f, observed_ = 0.0f;
     float urgency_ = 0.0f;
     uint64_t taken_ = 0;  // steps
     double agreed_ = 0.0; // of these since something was urgent

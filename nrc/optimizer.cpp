@@ -26,11 +26,10 @@ ParameterGroup::ParameterGroup(Device& device, const std::string& name, uint64_t
     , secondMoments(floats(device, name + " second moments", parameters))
     , averages(floats(device, name + " averages", parameters)) {}
 
-Optimizer::Optimizer(Device& device, const OptimizerConfig& config)
+Optimizer::Optimizer(Device& device, const OptimizerConfig& config, bool byAddress)
     : config_(config)
     , beginUpdate_(device, kernels::begin_update)
     , partials_(device, "squared norm", kMostGroups * gpu::kNormPartials * sizeof(float)) {
-    const bool byAddress = device.storesByAddress();
     forFloats_ = {{device, kernels::gradient_norm},
                   {device, byAddress ? kernels::optimize_by_address : kernels::optimize}};
     forSums_ = {{device, kernels::gradient_norm_from_sums},

@@ -35,7 +35,10 @@ struct ParameterGroup {
 
 class Optimizer {
 public:
-    Optimizer(Device& device, const OptimizerConfig& config);
+    Optimizer(Device& device, const OptimizerConfig& config)
+        : Optimizer(device, config, device.storesByAddress()) {}
+    // Either form of the kernels on any device that has both, for tests.
+    Optimizer(Device& device, const OptimizerConfig& config, bool byAddress);
 
     static gpu::TrainingState initialState();
 

@@ -22,13 +22,14 @@ constexpr uint32_t kAll = kWeights + kFeatures;
 // Weights and features with their optimiser; vectors hold the weights first.
 class OptimizerHarness {
 public:
-    explicit OptimizerHarness(const OptimizerConfig& config)
+    explicit OptimizerHarness(const OptimizerConfig& config,
+                              bool byAddress = validatedDevice().storesByAddress())
         : config_(config)
         , weights_(validatedDevice(), "weights", kWeights, config.learningRate, config.l2,
                    GradientForm::Floats)
         , features_(validatedDevice(), "features", kFeatures, config.gridLearningRate, 0.0,
                     GradientForm::Sums)
-        , optimizer_(validatedDevice(), config)
+        , optimizer_(validatedDevice(), config, byAddress)
         , state_(makeBuffer(validatedDevice(), "state", std::vector{Optimizer::initialState()})) {}
 
     using Part = Buffer ParameterGroup::*;
@@ -200,6 +201,19 @@ TEST_CASE("steps are those of the twin") {
         CHECK(harness.state().damagedParameters == 0);
     }
     CHECK(validatedDevice().validationMessages() == 0);
+}
+
+TEST_CASE("stored through bindings, parameters have the bits of those stored by address") {
+    reference::Random random(13);
+    const std::vector<float> values = randomFloats(random, 1.0f);
+    OptimizerHarness plain(fullConfig(), false), own(fullConfig());
+    for (OptimizerHarness* harness : {&plain, &own}) harness->set(&ParameterGroup::values, values);
+    for (int step = 0; step < 3; ++step) {
+        const std::vector<float> gradient = randomGradient(random);
+        plain.step(gradient);
+        own.step(gradient);
+    }
+    for (const auto part : kParts) CHECK((plain.get(part) == own.get(part)));
 }
 
 TEST_CASE("a wrong setting or gradient is found") {

@@ -22,6 +22,10 @@ struct FilmImage {
     std::vector<glm::vec3> normal;   // shading normal, world space, not renormalised
     std::vector<glm::vec3> position; // world space
     std::vector<float> depth;        // along the camera's axis; infinity where nothing was hit
+
+    void reserve(size_t pixels, bool hasVariance, bool hasLayers);
+    // Bytes that a film of so many pixels and its layers as toLayers makes them take on the host.
+    static uint64_t hostBytes(uint64_t pixels, bool hasLayers);
 };
 
 // Channels by pbrt's names: R G B, Variance.*, SampleCount.V, and Albedo.*, N.*, P.*, Z where gathered.

@@ -37,6 +37,9 @@ public:
     // Of suffixes that end by roulette alone, in the next frame: at least `configured`; none if that is none.
     float unbiasedShare(float configured) const;
     float urgency() const { return urgency_; } // 0 to 1
+    // Whether predictions and targets have agreed once: from then on the cache is worth showing. Of light that
+    // no path has found there is nothing to learn.
+    bool hasLearned() const { return hasLearned_; }
 
 private:
     AdaptationConfig config_;
@@ -45,6 +48,8 @@ private:
     // Sums over frames: of their weights times disagreement, of their weights.
     float disagreement_ = 0.0f, observed_ = 0.0f;
     float urgency_ = 0.0f;
+    uint32_t frames_ = 0; // observed
+    bool hasLearned_ = false;
     uint64_t taken_ = 0;  // steps
     double agreed_ = 0.0; // of these since something was urgent
 };

@@ -49,6 +49,7 @@ uint32_t renderFrames(RenderSession& session, const RenderOptions& options) {
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     };
     // Frames before the first: their numbers are those before it too, so that the film's stay what they are.
+    if (options.warmup > 0) session.beginWarmup();
     for (uint32_t i = options.warmup; i > 0; --i) session.renderFrame(range.first - i);
     if (options.warmup > 0) session.endWarmup();
     ProgressMeter progress("render", options.progress);

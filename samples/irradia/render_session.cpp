@@ -3,6 +3,7 @@
 #include "engine/error.h"
 #include "engine/image/metrics.h"
 #include "engine/scene/area_table.h"
+#include "nrc/renderer/picture_memory.h"
 #include "samples/support/program.h"
 #include <chrono>
 #include <cstdio>
@@ -115,6 +116,13 @@ RenderSession::RenderSession(const RenderRequest& request)
     view_ = findView(request.view);
     reference_ = loadReference(view_, request.reference, size_);
     request_.device.records = parseRecords(request.records);
+    const NrcOptions options = rendererOptions();
+    device_ = std::make_unique<Device>(request_.device);
+    fmt::print(stderr, "device {} ({}), subgroups of {}, {} records\n", device_->description().name,
+               device_->description().driver, device_->subgroupSize(),
+               device_->texelRecords() ? "texel" : "storage");
+    requireRoomForPicture(*device_, options, hasCache());
+
     scene_ = loadScene(request.scene);
     const CameraFile chosen = chooseCamera(scene_, request.camera);
     camera_ = chosen.camera;
@@ -122,17 +130,10 @@ RenderSession::RenderSession(const RenderRequest& request)
     if (!environment.empty()) scene_.environment = loadEnvironment(environment);
 
     if (!request.changes.empty()) changes_ = ScriptedChanges(request.changes, scene_);
-    const NrcOptions options = rendererOptions();
     SceneRecords records = packScene(scene_, changes_.states(scene_));
     if (options.config.uniformShare > 0.0f) packAreaTable(records);
     reportScene(scene_, records.warnings);
-    const Bvh bvh = buildBvh(scene_);
-    device_ = std::make_unique<Device>(request_.device);
-    fmt::print(stderr, "device {} ({}), subgroups of {}, {} records\n", device_->description().name,
-               device_->description().driver, device_->subgroupSize(),
-               device_->texelRecords() ? "texel" : "storage");
-
-    createRenderer(options, records, bvh);
+    createRenderer(options, records, buildBvh(scene_));
 }
 
 NrcOptions RenderSession::rendererOptions() const {
@@ -144,28 +145,24 @@ NrcOptions RenderSession::rendererOptions() const {
     options.paths.seed = request_.seed;
     options.paths.surfaces = request_.surfaces;
     options.seed = request_.seed;
-    const bool hasCache = request_.method != "pt";
-    if (hasCache) {
+    if (hasCache()) {
         options.config = nrcConfig(request_);
         view_.applyTo(options);
     }
-    if (!hasCache && !request_.network.empty())
+    if (!hasCache() && !request_.network.empty())
         fail(ExitCode::Usage, "--network is for the methods with a cache; --method pt has none");
-    if (!hasCache && view_.needsCache())
+    if (!hasCache() && view_.needsCache())
         fail(ExitCode::Usage, "--view {} is for the methods with a cache; --method pt has none", view_.name);
     return options;
 }
 
 void RenderSession::createRenderer(const NrcOptions& options, const SceneRecords& records, const Bvh& bvh) {
-    const bool hasCache = request_.method != "pt";
     auto plan = plannedBuffers(records, bvh);
-    for (auto& buffer : hasCache ? NrcRenderer::plannedBuffers(*device_, options)
-                                 : WavefrontPathTracer::plannedBuffers(*device_, options.paths))
-        plan.push_back(std::move(buffer));
+    for (auto& buffer : pictureBuffers(*device_, options, hasCache())) plan.push_back(std::move(buffer));
     device_->plan(plan);
     const Bounds bounds = sceneBounds(scene_);
     gpuScene_ = uploadScene(*device_, records, bvh, bounds);
-    if (hasCache)
+    if (hasCache())
         nrc_ = std::make_unique<NrcRenderer>(*device_, gpuScene_, bounds, options, &profiler_);
     else
         tracer_ = std::make_unique<WavefrontPathTracer>(*device_, gpuScene_, options.paths, &profiler_);
@@ -209,7 +206,12 @@ void RenderSession::forgetFilm() {
         tracer_->forgetFilm();
 }
 
+void RenderSession::beginWarmup() {
+    if (nrc_) nrc_->setWarmingUp(true);
+}
+
 void RenderSession::endWarmup() {
+    if (nrc_) nrc_->setWarmingUp(false);
     forgetFilm();
     profiler_.reset();
 }

@@ -43,7 +43,8 @@ public:
     // Makes the changes that are due, renders a frame and closes it in the profiler; returns its wall-clock
     // milliseconds. `index` numbers it for the random numbers; changes count the calls.
     double renderFrame(uint32_t index);
-    // What was rendered so far only trained: the film and the profiler begin anew.
+    // Frames from here on only train, until the film and the profiler begin anew.
+    void beginWarmup();
     void endWarmup();
 
     const RenderRequest& request() const { return request_; }
@@ -58,6 +59,7 @@ public:
     glm::uvec2 size() const { return size_; }
 
 private:
+    bool hasCache() const { return request_.method != "pt"; }
     void applyChanges();
     void forgetFilm();
     NrcOptions rendererOptions() const;

@@ -51,7 +51,8 @@ const Metric& findMetric(const std::string& name) {
 Limit parseLimit(const std::string& text) {
     const size_t equals = text.find('=');
     if (equals == std::string::npos) fail(ExitCode::Usage, "--fail-above {}: not METRIC=X", text);
-    const Metric& metric = findMetric(text.substr(0, equals));
+    const std::string name = text.substr(0, equals);
+    const Metric& metric = findMetric(name);
     double value = 0;
     if (!CLI::detail::lexical_cast(text.substr(equals + 1), value) || !std::isfinite(value))
         fail(ExitCode::Usage, "--fail-above {}: {} is not a number", text, text.substr(equals + 1));

@@ -66,9 +66,9 @@ seconds_table() {
     echo "|---|---|---|"
     for scene in $scenes; do
         reference_of "$scene"
-        for method in pt nrc; do # what compiling the kernels takes is in neither's seconds
-            render "$scene" $folder/warm.exr --method $method --warmup 0 --frames 1
-        done
+        # What compiling the kernels takes is in neither's seconds.
+        render "$scene" $folder/warm.exr --method pt --frames 1
+        render "$scene" $folder/warm.exr --method nrc --warmup 1 --frames 1
         render "$scene" $folder/pt.exr --method pt --time "$each"
         render "$scene" $folder/nrc.exr --method nrc --preset balanced --warmup 64 --time "$each"
         LC_ALL=C printf '| `%s` | %.2g | %.2g |\n' "$scene" "$(error relmse $folder/pt.exr)" \

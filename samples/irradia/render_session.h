@@ -28,6 +28,7 @@ struct RenderRequest {
     std::string environment;
     std::string changes; // JSON of scripted_changes.h
     bool surfaces = false;
+    bool strict = false; // warnings about the scene are errors
     DeviceOptions device;
     std::string records = "auto"; // form of the kernels
 };

@@ -1,5 +1,6 @@
 // `irradia render` as a program: the same command gives the same pixels at any number of threads, files are
 // whole, and bad input ends in one sentence and its exit code.
+#include "engine/image/display.h"
 #include "engine/image/image.h"
 #include "tests/support/temporary_folder.h"
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sys/wait.h>
+#include <tuple>
 
 using namespace irradia;
 using irradia::test::TemporaryFolder;
@@ -38,7 +40,7 @@ TEST_CASE("the same command gives the same pixels, with one thread or two, at an
           "without") {
     const TemporaryFolder folder;
     const std::string arguments =
-        "render " + kScenes + "interior.glb --size 48x36 --frames 3 --max-bounces 6 --aov -o ";
+        "render " + kScenes + "interior.glb --method pt --size 48x36 --frames 3 --max-bounces 6 --aov -o ";
     std::vector<LayeredImage> images;
     for (const char* environment :
          {"LP_NUM_THREADS=1", "LP_NUM_THREADS=2", "LP_NUM_THREADS=2", "IRRADIA_VALIDATION=1"}) {
@@ -72,7 +74,8 @@ TEST_CASE("the cache trains to the same bits with one thread or two, with barrie
 
 TEST_CASE("a range of frames is the frames of that number") {
     const TemporaryFolder folder;
-    const std::string base = "render " + kScenes + "cornell-box.glb --size 16x16 --max-bounces 2 -o ";
+    const std::string base =
+        "render " + kScenes + "cornell-box.glb --method pt --size 16x16 --max-bounces 2 -o ";
     const auto render = [&](const std::string& frames) {
         const std::string file = (folder / "frames.exr").string();
         REQUIRE(run("", base + file + " --frames " + frames).code == 0);
@@ -88,7 +91,7 @@ TEST_CASE("a range of frames is the frames of that number") {
 TEST_CASE("stats say what a frame cost") {
     const TemporaryFolder folder;
     const std::string file = (folder / "stats.json").string();
-    REQUIRE(run("", "render " + kScenes + "cornell-box.glb --size 32x32 --frames 3 -o " +
+    REQUIRE(run("", "render " + kScenes + "cornell-box.glb --method pt --size 32x32 --frames 3 -o " +
                         (folder / "o.exr").string() + " --png " + (folder / "o.png").string() + " --stats " +
                         file)
                 .code == 0);
@@ -103,6 +106,142 @@ TEST_CASE("stats say what a frame cost") {
                        ms["train"].get<double>() + ms["other"].get<double>();
     CHECK(std::abs(sum - ms["total"].get<double>()) < 1e-6);
     CHECK(std::filesystem::file_size(folder / "o.png") > 100);
+    CHECK(stats["options"]["method"] == "pt");
+    CHECK(stats["options"]["max_bounces"] == 16);
+    CHECK(stats["ended_by"] == "frames");
+}
+
+TEST_CASE("stats have a row after frames 1, 2, 4, 8, ...") {
+    const TemporaryFolder folder;
+    const auto rows = [&](const std::string& more) {
+        const std::string file = (folder / "stats.json").string();
+        REQUIRE(run("", "render " + kScenes + "cornell-box.glb --size 16x12 --stats " + file + more).code ==
+                0);
+        std::ifstream stream(file);
+        return nlohmann::json::parse(stream).at("history");
+    };
+    const auto learned =
+        rows(" --method nrc --preset fast --warmup 2 --frames 5 -o " + (folder / "a.exr").string());
+    REQUIRE(learned.size() == 3);
+    for (size_t i = 0; i < 3; ++i) {
+        CHECK(learned[i]["frame"] == 1u << i);
+        CHECK(learned[i]["loss"] > 0.0);
+        CHECK(learned[i]["records"] > 0);
+        if (i > 0) CHECK(learned[i]["seconds"] > learned[i - 1]["seconds"]);
+    }
+    const std::string last = (folder / "b.exr").string();
+    const auto traced = rows(" --method pt --frames 4 -o " + last);
+    REQUIRE(traced.size() == 3);
+    CHECK(traced[2]["loss"].is_null());
+    double mean = 0.0;
+    for (const glm::vec3& pixel : readExr(last).rgb()) mean += luminance(pixel) / (16 * 12);
+    CHECK(std::abs(traced[2]["mean"].get<double>() - mean) < 1e-9 * mean); // sums in double precision round
+}
+
+TEST_CASE("render takes the cache unless told otherwise, and says so first") {
+    const TemporaryFolder folder;
+    const auto render = [&](const std::string& more) {
+        const std::string file = (folder / "a.exr").string();
+        const Run result =
+            run("", "render " + kScenes + "cornell-box.glb --size 8x6 --preset fast -o " + file + more);
+        REQUIRE(result.code == 0);
+        const auto attributes = readExr(file).attributes;
+        return std::tuple(result.log.substr(0, result.log.find('\n')), attributes.at("irradia.method"),
+                          attributes.at("irradia.warmup"));
+    };
+    CHECK(render(" --frames 2") ==
+          std::tuple("render: method nrc, preset fast, warm-up 64, frames 0-2, size 8x6", "nrc", "64 of 64"));
+    CHECK(std::get<1>(render(" --method cache-view --warmup 3")) == "cache-view");
+    CHECK(render(" --max-bounces 0") ==
+          std::tuple("render: method pt, warm-up 0, frames 0-1, size 8x6", "pt", "0 of 0"));
+    CHECK(std::get<1>(render(" --method pt --max-bounces 1")) == "pt");
+}
+
+TEST_CASE("time includes the warm-up, which leaves half of it, and there is always a frame") {
+    const TemporaryFolder folder;
+    const std::string file = (folder / "a.exr").string(), stats = (folder / "a.json").string();
+    const Run result =
+        run("", "render " + kScenes +
+                    "cornell-box.glb --size 64x48 --method nrc --preset fast --warmup 1000000 --time "
+                    "0.5 -o " +
+                    file + " --stats " + stats);
+    INFO(result.log);
+    REQUIRE(result.code == 0);
+    CHECK(result.log.find("of 1000000 frames, in half of the 0.5 s") != std::string::npos);
+    const LayeredImage image = readExr(file);
+    CHECK(image.channels.at("SampleCount.V")[0] >= 1.0f);
+    CHECK(image.attributes.at("irradia.warmup").ends_with(" of 1000000"));
+    CHECK(image.attributes.at("irradia.endedBy") == "time");
+    std::ifstream stream(stats);
+    const auto json = nlohmann::json::parse(stream);
+    CHECK(json.at("warmup_frames") >= 1);
+    CHECK(json.at("options").at("warmup") == 1000000);
+}
+
+TEST_CASE("an output in place of an input is refused, by whatever name, and the input stays") {
+    const TemporaryFolder folder;
+    const auto at = [&](const char* name) { return (folder / name).string(); };
+    // A triangle whose buffer lies beside the file.
+    std::ofstream(at("a.gltf")) << R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+        "nodes": [{"mesh": 0}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+                       "min": [0, 0, 0], "max": [1, 1, 0]}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}], "buffers": [{"uri": "b.png", "byteLength": 36}]})";
+    const std::vector<float> corners{0, 0, 0, 1, 0, 0, 0, 1, 0};
+    folder.write("b.png", {reinterpret_cast<const uint8_t*>(corners.data()), 36});
+    LayeredImage sky;
+    sky.width = sky.height = 4;
+    sky.setRgb("", std::vector<glm::vec3>(16, glm::vec3(1.0f)));
+    writeExr(at("sky.exr"), sky);
+    std::filesystem::create_symlink("a.gltf", at("link.exr"));
+    std::filesystem::create_hard_link(at("a.gltf"), at("hard.exr"));
+    std::ofstream(at("camera.json"))
+        << R"({"camera": {"position": [0, 0, 3], "look_at": [0, 0, 0], "vfov_deg": 40}, "env": "sky.exr"})";
+    const std::pair<const char*, const char*> cases[] = {
+        {"-o link.exr", "is the scene"},
+        {"-o hard.exr", "is the scene"},
+        {"-o ./b.png", "is a file of the scene"},
+        {"-o a.exr --stats a.gltf", "is the scene"},
+        {"-o a.exr --stats ../$(basename $PWD)/camera.json --camera camera.json", "is the camera"},
+        {"-o sky.exr --env sky.exr", "is the environment"},
+        {"-o sky.exr --camera camera.json", "is the environment"},
+        {"-o sky.exr --view error-sign --reference sky.exr", "is the reference"},
+        {"-o a.exr --stats changes.json --changes changes.json", "is the list of changes"},
+    };
+    const std::vector<uint8_t> before = folder.read("a.gltf");
+    for (const auto& [arguments, sentence] : cases) {
+        const Run result =
+            run("cd " + at("") + " &&", std::string("render a.gltf --size 4x4 --method pt ") + arguments);
+        INFO(arguments << "\n" << result.log);
+        CHECK(result.code == 64);
+        CHECK(result.log.find(sentence) != std::string::npos);
+    }
+    CHECK(folder.read("a.gltf") == before);
+    CHECK(run("cd " + at("") + " &&", "render a.gltf --size 4x4 --method pt -o a.exr").code == 0);
+}
+
+TEST_CASE("a PNG is the picture alone, exposed and mapped as asked") {
+    const TemporaryFolder folder;
+    const auto at = [&](const char* name) { return (folder / name).string(); };
+    const std::string base =
+        "render " + kScenes + "cornell-box.glb --method pt --size 16x16 --max-bounces 2 ";
+    REQUIRE(run("", base + "-o " + at("a.exr")).code == 0);
+    const std::vector<glm::vec3> radiance = readExr(at("a.exr")).rgb();
+    const auto pixels = [&](const std::string& options) {
+        const Run result = run("", base + "-o " + at("b.png") + options);
+        REQUIRE(result.code == 0);
+        return std::pair(decodeImage(folder.read("b.png"), "b.png").pixels, result.log);
+    };
+    CHECK(pixels("").first == toDisplay(16, 16, radiance).pixels);
+    CHECK(pixels(" --exposure -1.5 --tonemap aces").first ==
+          toDisplay(16, 16, radiance, {.exposure = -1.5, .toneMap = ToneMap::Aces}).pixels);
+    const double stops = automaticExposure(radiance);
+    const auto [shown, log] = pixels(" --exposure auto --tonemap reinhard");
+    CHECK(shown == toDisplay(16, 16, radiance, {.exposure = stops, .toneMap = ToneMap::Reinhard}).pixels);
+    char said[32];
+    std::snprintf(said, sizeof(said), "exposure: %+.2f stops", stops);
+    CHECK(log.find(said) != std::string::npos);
+    CHECK(folder.entries() == 2);
 }
 
 TEST_CASE("views show numbers of paths, in grey and as a heat map") {
@@ -112,7 +251,7 @@ TEST_CASE("views show numbers of paths, in grey and as a heat map") {
         REQUIRE(
             run("", "render " + kScenes +
                         "cornell-box.glb --size 16x16 --frames 2 --max-bounces 3 --method nrc --preset fast"
-                        " --view " +
+                        " --warmup 2 --view " +
                         view + " --png " + png + " -o " + file)
                 .code == 0);
         return std::pair(readExr(file).rgb(), decodeImage(folder.read("view.png"), png).pixels);
@@ -136,7 +275,8 @@ TEST_CASE("views show numbers of paths, in grey and as a heat map") {
 TEST_CASE("the sign of the error against a reference") {
     const TemporaryFolder folder;
     const auto at = [&](const char* name) { return (folder / name).string(); };
-    const std::string base = "render " + kScenes + "cornell-box.glb --size 16x16 --max-bounces 2 -o ";
+    const std::string base =
+        "render " + kScenes + "cornell-box.glb --method pt --size 16x16 --max-bounces 2 -o ";
     REQUIRE(run("", base + at("picture.exr")).code == 0);
     const auto signs = [&](const char* reference) {
         REQUIRE(run("", base + at("signs.exr") + " --view error-sign --reference " + at(reference)).code ==
@@ -160,7 +300,8 @@ TEST_CASE("the sign of the error against a reference") {
 TEST_CASE("a scripted change takes place at its frame, and the film begins anew where it is told to") {
     const TemporaryFolder folder;
     const std::string script = (folder / "changes.json").string();
-    const std::string base = "render " + kScenes + "cornell-box.glb --size 16x16 --max-bounces 2 -o ";
+    const std::string base =
+        "render " + kScenes + "cornell-box.glb --method pt --size 16x16 --max-bounces 2 -o ";
     const auto render = [&](const std::string& more) {
         const std::string file = (folder / "frames.exr").string();
         REQUIRE(run("", base + file + more).code == 0);
@@ -226,10 +367,10 @@ TEST_CASE("bad input ends in a sentence and an exit code, and leaves the old fil
         {"render " + scene + " --method nrc --network nowhere.json -o " + out, 66},
         {"render " + scene + " --camera nobody -o " + out, 66},
         {"render " + scene + " --device nothing -o " + out, 69},
-        {"render " + scene + " --network a.json -o " + out, 64},
-        {"render " + scene + " --view prediction -o " + out, 64},
+        {"render " + scene + " --method pt --network a.json -o " + out, 64},
+        {"render " + scene + " --method pt --view prediction -o " + out, 64},
         {"render " + scene + " --method nrc --view nothing -o " + out, 64},
-        {"render " + scene + " --view bounce-heat -o " + out, 64},
+        {"render " + scene + " --method pt --view bounce-heat -o " + out, 64},
         {"render " + scene + " --view error-sign -o " + out, 64},
         {"render " + scene + " --reference " + small + " -o " + out, 64},
         {"render " + scene + " --view error-sign --reference nowhere.exr -o " + out, 66},

@@ -5,6 +5,7 @@
 #include "engine/path/wavefront_path_tracer.h"
 #include "engine/scene/load_scene.h"
 #include "nrc/renderer/nrc_renderer.h"
+#include "samples/support/outputs.h"
 #include "scripted_changes.h"
 #include "views.h"
 #include <CLI/CLI.hpp>
@@ -30,7 +31,11 @@ struct RenderRequest {
     bool surfaces = false;
     DeviceOptions device;
     std::string records = "auto"; // form of the kernels
+    std::string heading;          // of the log, said when the scene is there
 };
+
+// The files that the request names, whether they exist or not.
+std::vector<NamedFile> inputFiles(const RenderRequest& request);
 
 // Adds the options of a request, grouped by topic.
 void addRequestOptions(CLI::App& command, RenderRequest& request);
@@ -48,6 +53,7 @@ public:
 
     const RenderRequest& request() const { return request_; }
     const Scene& scene() const { return scene_; }
+    std::vector<NamedFile> inputs() const; // every file that was read for it
     Device& device() { return *device_; }
     const View& view() const { return view_; }
     FilmImage readFilm() const; // as the view shows it
@@ -69,6 +75,7 @@ private:
     std::vector<glm::vec3> reference_;
     Scene scene_;
     Camera camera_;
+    std::string environment_; // where it came from
     ScriptedChanges changes_;
     uint32_t renderedFrames_ = 0;
     std::unique_ptr<Device> device_;

@@ -48,8 +48,7 @@ uint32_t renderFrames(RenderSession& session, const RenderOptions& options) {
     const auto elapsed = [&] {
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     };
-    // Frames before the first: their numbers are those before it too, so that the film's stay what they are.
-    for (uint32_t i = options.warmup; i > 0; --i) session.renderFrame(range.first - i);
+    for (uint32_t i = 0; i < options.warmup; ++i) session.renderWarmupFrame(i);
     if (options.warmup > 0) session.endWarmup();
     ProgressMeter progress("render", options.progress);
     uint32_t frame = range.first;
@@ -97,10 +96,13 @@ void describe(LayeredImage& image, RenderSession& session, uint32_t frames, uint
 }
 
 void render(const RenderOptions& options) {
-    parseFrames(options.frames);
+    const FrameRange range = parseFrames(options.frames);
+    RenderRequest request = options.request;
+    request.firstFrame = range.first;
+    if (options.seconds == 0.0) request.endFrame = range.end;
     for (const std::string& file : {options.output, options.png, options.stats})
         if (!file.empty()) requireWritable(file);
-    RenderSession session(options.request);
+    RenderSession session(request);
     const uint32_t end = renderFrames(session, options);
 
     const FilmImage film = session.readFilm();
@@ -147,7 +149,9 @@ void addRender(CLI::App& program) {
             "JSON list of changes: {\"frame\": k} and any of \"emissive_strength\": {\"material\", "
             "\"value\"}, \"material\": {\"name\", \"base_color\", \"roughness\", \"metallic\"}, "
             "\"environment\": [r,g,b] or a factor, \"camera\": {...}, \"restart\": true (of the film); "
-            "frame 0 is the first rendered, warm-up included")
+            "frames are numbered as by --frames, and warm-up sees the scene of the first; a change beyond "
+            "the "
+            "last is an error")
         ->group("Frames");
     addProgressOption(*command, options->progress);
     for (const char* name : kLaterOptions)

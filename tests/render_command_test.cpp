@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <catch2/catch_test_macros.hpp>
 #include <cmath>
+#include <fmt/format.h>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sys/wait.h>
@@ -297,29 +298,71 @@ TEST_CASE("the sign of the error against a reference") {
     }
 }
 
+namespace {
+
+// Renders small pictures of a box whose lamp a script changes.
+class ScriptedBox {
+public:
+    Run tryRender(const std::string& changes, const std::string& options) const {
+        std::ofstream(folder_ / "changes.json") << changes;
+        return run("", "render " + kScenes + "cornell-box.glb --size 16x16 --max-bounces 2 -o " +
+                           (folder_ / "frames.exr").string() + " --changes " +
+                           (folder_ / "changes.json").string() + options);
+    }
+    LayeredImage render(const std::string& changes, const std::string& options) const {
+        const Run result = tryRender(changes, options);
+        INFO(result.log);
+        REQUIRE(result.code == 0);
+        return readExr(folder_ / "frames.exr");
+    }
+
+private:
+    TemporaryFolder folder_;
+};
+
+std::string lampAt(int frame, int strength, const std::string& more = "") {
+    return fmt::format(R"({{"frame": {}, "emissive_strength": {{"material": "light", "value": {}}}{}}})",
+                       frame, strength, more);
+}
+
+} // namespace
+
 TEST_CASE("a scripted change takes place at its frame, and the film begins anew where it is told to") {
-    const TemporaryFolder folder;
-    const std::string script = (folder / "changes.json").string();
-    const std::string base =
-        "render " + kScenes + "cornell-box.glb --method pt --size 16x16 --max-bounces 2 -o ";
-    const auto render = [&](const std::string& more) {
-        const std::string file = (folder / "frames.exr").string();
-        REQUIRE(run("", base + file + more).code == 0);
-        return readExr(file);
-    };
-    std::ofstream(script) << R"([{"frame": 3, "emissive_strength": {"material": "light", "value": 0}},
-        {"frame": 5, "emissive_strength": {"material": "light", "value": 4}, "restart": true}])";
-    const std::string changes = " --changes " + script;
-    // Frame 3 is the second after two of warm-up.
-    const auto before = render(" --warmup 2 --frames 2-3" + changes).channels.at("G");
-    CHECK(before == render(" --frames 2-3").channels.at("G"));
-    const auto dark = render(" --warmup 2 --frames 3-4" + changes),
-               off = render(" --warmup 3 --frames 3-4" + changes);
-    CHECK(dark.channels.at("G") != off.channels.at("G"));
-    for (const float v : off.channels.at("G")) CHECK(v == 0.0f);
-    const LayeredImage again = render(" --frames 0-6" + changes);
+    const ScriptedBox box;
+    const std::string off = lampAt(3, 0), on = lampAt(5, 4, R"(, "restart": true)");
+    const LayeredImage again = box.render("[" + on + "," + off + "]", " --method pt --frames 0-6");
     CHECK(again.attributes.at("irradia.frames") == "5-6");
     CHECK(again.channels.at("SampleCount.V")[0] == 1.0f);
+
+    // Whatever the first frame, it shows the scene as its number says.
+    CHECK(box.render("[" + off + "," + on + "]", " --method pt --frames 5-6").channels == again.channels);
+    const auto green = [&](const std::string& changes, const std::string& frames) {
+        return box.render("[" + changes + "]", " --method pt --frames " + frames).channels.at("G");
+    };
+    CHECK(green(off, "2-4") != green("", "2-4"));
+    for (const float v : green(off, "3-4")) CHECK(v == 0.0f);
+    for (const float v : green(off, "30-31")) CHECK(v == 0.0f);
+}
+
+TEST_CASE("warm-up sees the scene of the first frame") {
+    const ScriptedBox box;
+    const auto green = [&](int frame, const std::string& warmup) {
+        return box.render("[" + lampAt(frame, 4) + "]", " --method nrc --preset fast --frames 3-4" + warmup)
+            .channels.at("G");
+    };
+    const auto warm = green(3, " --warmup 4");
+    CHECK(warm == green(0, " --warmup 4"));
+    CHECK(warm != green(3, " --warmup 1")); // it is seen what the cache has learned
+}
+
+TEST_CASE("a change that never comes is refused by name") {
+    const ScriptedBox box;
+    const std::string changes = "[" + lampAt(9, 0) + "," + lampAt(4, 0) + "]";
+    const Run late = box.tryRender(changes, " --method pt --frames 2-9");
+    INFO(late.log);
+    CHECK(late.code == 65);
+    CHECK(late.log.find("changes[0].frame is 9, but the last frame rendered is 8") != std::string::npos);
+    CHECK(box.tryRender(changes, " --method pt --frames 2-10").code == 0);
 }
 
 TEST_CASE("a script that cannot be used is refused in a sentence") {

@@ -55,6 +55,8 @@ void render(RenderOptions options) {
     options.request.method = chooseMethod(options.request);
     const FramePlan plan = planFrames(options);
     options.request.heading = headingOf(options, plan);
+    options.request.firstFrame = plan.first;
+    if (plan.end != UINT32_MAX) options.request.endFrame = plan.end;
     options.outputs.check(options.request);
     catchInterrupts();
     RenderSession session(options.request);
@@ -94,7 +96,9 @@ void addFrameOptions(CLI::App& command, RenderOptions& options) {
             "JSON list of changes: {\"frame\": k} and any of \"emissive_strength\": {\"material\", "
             "\"value\"}, \"material\": {\"name\", \"base_color\", \"roughness\", \"metallic\"}, "
             "\"environment\": [r,g,b] or a factor, \"camera\": {...}, \"restart\": true (of the film); "
-            "frame 0 is the first rendered, warm-up included")
+            "frames are numbered as by --frames, and warm-up sees the scene of the first; a change beyond "
+            "the "
+            "last is an error")
         ->group("Frames");
 }
 

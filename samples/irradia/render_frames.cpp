@@ -30,8 +30,7 @@ double fraction(uint32_t done, uint32_t frames, const Stopwatch& clock, double s
     return std::max(double(done) / frames, std::min(clock.seconds() / seconds, 1.0));
 }
 
-// Returns how many frames there was time for. Their numbers are those before the first one's, so that the
-// film's stay what they are.
+// Returns how many frames there was time for.
 uint32_t warmUp(RenderSession& session, const FramePlan& plan, const std::string& progress,
                 const Stopwatch& clock) {
     stopIfInterrupted();
@@ -40,7 +39,7 @@ uint32_t warmUp(RenderSession& session, const FramePlan& plan, const std::string
     ProgressMeter meter("warmup", progress);
     uint32_t done = 0;
     for (; done < plan.warmup && clock.seconds() < seconds; ++done) {
-        session.renderFrame(plan.first - plan.warmup + done);
+        session.renderWarmupFrame(done);
         meter.update(fraction(done + 1, plan.warmup, clock, seconds));
         if (const char* signal = interruptedBy())
             fail(ExitCode::Interrupted,

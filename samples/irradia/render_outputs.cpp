@@ -68,9 +68,14 @@ void describe(LayeredImage& image, RenderSession& session, uint32_t frames, cons
     if (!session.nrc()) return;
     RadianceCache& cache = session.nrc()->cache();
     a["irradia.cache"] =
-        fmt::format("--preset '{}' --network '{}' --warmup {}", request.preset, request.network, plan.warmup);
+        fmt::format("--preset '{}' --network '{}' --warmup {}", request.preset, request.network, run.warmup);
     a["irradia.model"] = toJson(cache.trainer().config());
     a["irradia.trainingSteps"] = std::to_string(session.nrc()->counts().training.steps);
+}
+
+// "A-B", or "A-" where only the time ends them.
+std::string framesText(const FramePlan& plan) {
+    return fmt::format("{}-{}", plan.first, plan.end == UINT32_MAX ? "" : std::to_string(plan.end));
 }
 
 nlohmann::ordered_json optionsOf(const RenderRequest& request, const FramePlan& plan,
@@ -81,7 +86,7 @@ nlohmann::ordered_json optionsOf(const RenderRequest& request, const FramePlan& 
                                    {"spp", request.samplesPerFrame},
                                    {"max_bounces", request.maxBounces},
                                    {"seed", request.seed},
-                                   {"frames", fmt::format("{}-{}", plan.first, plan.end)},
+                                   {"frames", framesText(plan)},
                                    {"time", plan.seconds}, // null: any
                                    {"warmup", plan.warmup},
                                    {"camera", request.camera},

@@ -128,6 +128,7 @@ RenderSession::RenderSession(const RenderRequest& request)
     if (!environment_.empty()) scene_.environment = loadEnvironment(environment_);
 
     if (!request.changes.empty()) changes_ = ScriptedChanges(request.changes, scene_);
+    if (request.endFrame) changes_.requireBefore(*request.endFrame);
     const NrcOptions options = rendererOptions();
     SceneRecords records = packScene(scene_, changes_.states(scene_));
     if (options.config.uniformShare > 0.0f) packAreaTable(records);
@@ -188,25 +189,33 @@ void RenderSession::createRenderer(const NrcOptions& options, const SceneRecords
         tracer_ = std::make_unique<WavefrontPathTracer>(*device_, gpuScene_, options.paths, &profiler_);
 }
 
-void RenderSession::applyChanges() {
+void RenderSession::applyChanges(uint32_t frame) {
     bool isChanged = false;
-    for (const SceneChange* change : changes_.at(renderedFrames_)) {
-        change->applyTo(scene_);
-        isChanged = isChanged || change->changesScene();
-        if (change->camera) camera_ = *change->camera;
-        if (change->restart) forgetFilm();
+    for (const SceneChange& change : changes_.takeUpTo(frame)) {
+        change.applyTo(scene_);
+        isChanged = isChanged || change.changesScene();
+        if (change.camera) camera_ = *change.camera;
+        if (change.restart) forgetFilm();
     }
     if (isChanged) updateScene(*device_, scene_, gpuScene_);
 }
 
-double RenderSession::renderFrame(uint32_t index) {
-    applyChanges();
-    ++renderedFrames_;
+double RenderSession::renderFrame(uint32_t number) {
+    applyChanges(number);
+    return renderWith(number);
+}
+
+double RenderSession::renderWarmupFrame(uint32_t index) {
+    applyChanges(request_.firstFrame);
+    return renderWith(UINT32_MAX - index);
+}
+
+double RenderSession::renderWith(uint32_t randomIndex) {
     const auto start = std::chrono::steady_clock::now();
     if (nrc_)
-        nrc_->renderFrame(camera_, index);
+        nrc_->renderFrame(camera_, randomIndex);
     else
-        tracer_->renderFrame(camera_, index);
+        tracer_->renderFrame(camera_, randomIndex);
     const double wall =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     profiler_.endFrame(wall);

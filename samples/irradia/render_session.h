@@ -10,6 +10,7 @@
 #include "views.h"
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace irradia {
@@ -28,6 +29,8 @@ struct RenderRequest {
     std::string camera;
     std::string environment;
     std::string changes; // JSON of scripted_changes.h
+    uint32_t firstFrame = 0;
+    std::optional<uint32_t> endFrame; // number after the last frame's, where it is known beforehand
     bool surfaces = false;
     DeviceOptions device;
     std::string records = "auto"; // form of the kernels
@@ -45,9 +48,12 @@ class RenderSession {
 public:
     explicit RenderSession(const RenderRequest& request);
 
-    // Makes the changes that are due, renders a frame and closes it in the profiler; returns its wall-clock
-    // milliseconds. `index` numbers it for the random numbers; changes count the calls.
-    double renderFrame(uint32_t index);
+    // Makes the changes up to this frame, renders it and closes it in the profiler; returns its wall-clock
+    // milliseconds. Numbers grow from the request's first frame on.
+    double renderFrame(uint32_t number);
+    // The same for frame `index` = 0, 1, ... of the warm-up: it sees the scene of the first frame, and its
+    // random numbers are those of no other frame.
+    double renderWarmupFrame(uint32_t index);
     // What was rendered so far only trained: the film and the profiler begin anew.
     void endWarmup();
 
@@ -64,7 +70,8 @@ public:
     glm::uvec2 size() const { return size_; }
 
 private:
-    void applyChanges();
+    void applyChanges(uint32_t frame);
+    double renderWith(uint32_t randomIndex);
     void forgetFilm();
     NrcOptions rendererOptions() const;
     void createRenderer(const NrcOptions& options, const SceneRecords& records, const Bvh& bvh);
@@ -77,7 +84,6 @@ private:
     Camera camera_;
     std::string environment_; // where it came from
     ScriptedChanges changes_;
-    uint32_t renderedFrames_ = 0;
     std::unique_ptr<Device> device_;
     GpuScene gpuScene_;
     Profiler profiler_;

@@ -149,7 +149,7 @@ void WavefrontPathTracer::forgetFilm() {
 
 void WavefrontPathTracer::traceWave(const Camera& camera, const Wave& wave, uint32_t frame,
                                     const CachePaths* cache) {
-    const float scale = std::tan(0.5f * camera.verticalFov);
+    const float scale = camera.isOrthographic() ? camera.halfHeight : std::tan(0.5f * camera.verticalFov);
     const float aspect = static_cast<float>(options_.width) / static_cast<float>(options_.height);
     const glm::vec3 right = glm::normalize(glm::cross(camera.forward, camera.up));
     const gpu::CameraParams params{glm::vec4(camera.position, 0),
@@ -163,7 +163,7 @@ void WavefrontPathTracer::traceWave(const Camera& camera, const Wave& wave, uint
                                    sampleIndex(wave, frame),
                                    options_.seed,
                                    wave.log2Samples,
-                                   0};
+                                   camera.isOrthographic() ? 1u : 0u};
     graph_.pass(kernels_.generateCameraRays)
         .write(buffers_.rays[0])
         .write(buffers_.radiance)

@@ -29,8 +29,8 @@ SHARED_CONST uint kFirstTrainingPixel = 0x40000000u;
 struct CameraParams {
     vec4 position; // xyz; w unused
     vec4 forward;  // unit
-    vec4 right;    // times tan(vfov / 2) * aspect
-    vec4 up;       // times tan(vfov / 2)
+    vec4 right;    // times tan(vfov / 2) * aspect, or half the view's width if orthographic
+    vec4 up;       // times tan(vfov / 2), or half the view's height
     uint width;
     uint height;
     uint firstPixel;
@@ -38,7 +38,7 @@ struct CameraParams {
     uint sampleIndex;
     uint seed;
     uint log2Samples;
-    uint pad;
+    uint isOrthographic; // 1 = rays are parallel, 0 = they leave one point
 };
 
 // Paths that no pixel sees: they start at points of the scene's surfaces. Their numbers take the place of pixels, beyond

@@ -216,8 +216,8 @@ void WavefrontPathTracer::bounce(uint32_t depth, const Wave& wave, uint32_t samp
                                    scene_.environmentWidth,
                                    scene_.environmentHeight,
                                    scene_.environmentProbability,
-                                   scene_.rayEpsilon,
                                    parity,
+                                   0,
                                    0,
                                    0};
     const bool areTraced = depth > 0 || !startsAtSurfaces(wave);

@@ -164,7 +164,7 @@ void RenderSession::createRenderer(const NrcOptions& options, const SceneRecords
         plan.push_back(std::move(buffer));
     device_->plan(plan);
     const Bounds bounds = sceneBounds(scene_);
-    gpuScene_ = uploadScene(*device_, records, bvh, bounds);
+    gpuScene_ = uploadScene(*device_, records, bvh);
     if (hasCache)
         nrc_ = std::make_unique<NrcRenderer>(*device_, gpuScene_, bounds, options, &profiler_);
     else

@@ -33,6 +33,7 @@ GpuScene uploadScene(Device& device, const SceneRecords& records, const Bvh& bvh
     if (!records.areaTable.empty()) scene.areaTable = makeBuffer(device, "area table", records.areaTable);
     scene.reflectanceTable = makeBuffer(device, "reflectance table", buildReflectanceTable());
     scene.needs = records.needs;
+    scene.origin = records.origin;
     scene.triangles = static_cast<uint32_t>(records.geometry.size() / gpu::kGeometryRecords);
     scene.bvhRoot = bvh.root;
     scene.lightCount = records.lightCount;

@@ -21,6 +21,7 @@ struct GpuScene {
     Buffer reflectanceTable;
 
     SceneNeeds needs;
+    glm::dvec3 origin{0.0}; // Scene::origin
     uint32_t triangles = 0;
     uint32_t bvhRoot = 0; // record index
     uint32_t lightCount = 0;

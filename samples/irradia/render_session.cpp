@@ -3,6 +3,7 @@
 #include "engine/error.h"
 #include "engine/image/metrics.h"
 #include "engine/scene/area_table.h"
+#include "engine/scene/scene_box.h"
 #include "samples/support/program.h"
 #include <chrono>
 #include <cstdio>
@@ -52,6 +53,9 @@ std::vector<glm::vec3> loadReference(const View& view, const std::string& file, 
 void reportScene(const Scene& scene, const std::vector<std::string>& packingWarnings) {
     fmt::print(stderr, "scene {}: {} triangles, {} materials, {} pictures\n", scene.name,
                scene.triangles.size(), scene.materials.size(), scene.images.size());
+    if (scene.origin != glm::dvec3(0.0))
+        fmt::print(stderr, "scene {}: it stands about ({:g}, {:g}, {:g})\n", scene.name, scene.origin.x,
+                   scene.origin.y, scene.origin.z);
     const SceneNotes& notes = scene.notes;
     if (notes.nonFiniteTriangles + notes.degenerateTriangles > 0)
         fmt::print(stderr, "warning: dropped {} degenerate and {} non-finite triangles\n",
@@ -163,10 +167,9 @@ void RenderSession::createRenderer(const NrcOptions& options, const SceneRecords
                                  : WavefrontPathTracer::plannedBuffers(*device_, options.paths))
         plan.push_back(std::move(buffer));
     device_->plan(plan);
-    const Bounds bounds = sceneBounds(scene_);
     gpuScene_ = uploadScene(*device_, records, bvh);
     if (hasCache)
-        nrc_ = std::make_unique<NrcRenderer>(*device_, gpuScene_, bounds, options, &profiler_);
+        nrc_ = std::make_unique<NrcRenderer>(*device_, gpuScene_, sceneBox(scene_), options, &profiler_);
     else
         tracer_ = std::make_unique<WavefrontPathTracer>(*device_, gpuScene_, options.paths, &profiler_);
 }

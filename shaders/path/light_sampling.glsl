@@ -42,9 +42,8 @@ LightSample sampleTriangleLight(Receiver receiver, uvec4 random) {
     uint primitive = loadRecord(lights, choice.light).z;
     TriangleRecord tri = loadTriangle(primitive);
     vec2 b = sampleTriangle(vec2(unitFloat(random.z), unitFloat(random.w)));
-    vec3 along1 = b.x * tri.e1;
-    vec3 along2 = b.y * tri.e2;
-    vec3 to = tri.p0 + along1 + along2 - receiver.point;
+    vec3 point = tri.p0 + b.x * tri.e1 + b.y * tri.e2;
+    vec3 to = point - receiver.point;
     float distance = length(to);
     vec3 direction = to / max(distance, 1e-30);
     vec3 normal = cross(tri.e1, tri.e2);
@@ -53,7 +52,8 @@ LightSample sampleTriangleLight(Receiver receiver, uvec4 random) {
     float cosine = -dot(normal, direction); // > 0: seen from the front
     vec3 radiance = emittedRadiance(tri.material, cosine > 0.0, attributesFor(kEmissiveTexture, primitive, b));
     float pdf = abs(cosine) > 1e-6 ? trianglePdf(choice.chance, 0.5 * doubleArea, distance, abs(cosine)) : 0.0;
-    float error = planeError(tri.p0, tri.e1, tri.e2, normal, doubleArea, abs(to) + abs(along1) + abs(along2));
+    vec3 reach = abs(b.x * tri.e1) + abs(b.y * tri.e2);
+    float error = pointError(normal, tri.p0, reach, point) + heightError(tri.e1, tri.e2, doubleArea, reach + abs(to));
     float tMax = distance * (1.0 - 4.0 * kRounding) - error / max(abs(cosine), 1e-6);
     return LightSample(direction, tMax, radiance, pdf);
 }

@@ -77,7 +77,8 @@ Surface loadSurface(uint primitive, vec2 b, vec3 view) {
 
     Surface s;
     s.position = tri.p0 + b.x * tri.e1 + b.y * tri.e2;
-    s.error = planeError(tri.p0, tri.e1, tri.e2, ng, doubleArea, abs(b.x * tri.e1) + abs(b.y * tri.e2));
+    vec3 reach = abs(b.x * tri.e1) + abs(b.y * tri.e2);
+    s.error = pointError(ng, tri.p0, reach, s.position) + heightError(tri.e1, tri.e2, doubleArea, reach);
     s.geometricNormal = ng;
     s.shadingNormal = ns;
     s.baseColor = base;

@@ -51,7 +51,7 @@ NrcOptions options(bool adapts) {
 
 double truth(bool on) {
     const Scene scene = room(on);
-    const GpuScene gpu = uploadScene(device(), packScene(scene), buildBvh(scene), sceneBounds(scene));
+    const GpuScene gpu = uploadScene(device(), packScene(scene), buildBvh(scene));
     PathTracerOptions paths = options(false).paths;
     paths.maxBounces = 32;
     paths.samplesPerFrame = 128; // the mean's error is 1 %
@@ -65,7 +65,7 @@ double truth(bool on) {
 class SwitchedRoom {
 public:
     explicit SwitchedRoom(bool adapts)
-        : gpu_(uploadScene(device(), packScene(room(true), bothStates()), buildBvh(room(true)), bounds()))
+        : gpu_(uploadScene(device(), packScene(room(true), bothStates()), buildBvh(room(true))))
         , renderer_(device(), gpu_, bounds(), options(adapts)) {}
 
     // Means over the truth's mean, of 30 frames in groups of 5.

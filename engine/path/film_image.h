@@ -20,7 +20,7 @@ struct FilmImage {
     // AOV layers; empty unless gathered. Means over the samples that hit something.
     std::vector<glm::vec3> albedo;
     std::vector<glm::vec3> normal;   // shading normal, world space, not renormalised
-    std::vector<glm::vec3> position; // world space
+    std::vector<glm::vec3> position; // world space, as the file has it
     std::vector<float> depth;        // along the camera's axis; infinity where nothing was hit
 
     void reserve(size_t pixels, bool hasVariance, bool hasLayers);

@@ -201,9 +201,9 @@ void WavefrontPathTracer::bounce(uint32_t depth, const Wave& wave, uint32_t samp
                                    scene_.environmentWidth,
                                    scene_.environmentHeight,
                                    scene_.environmentProbability,
-                                   scene_.rayEpsilon,
                                    parity,
                                    wave.log2Samples,
+                                   0,
                                    0};
     const bool areTraced = depth > 0 || !wave.startsAtSurfaces();
     beginBounce(parity, areTraced);
@@ -327,7 +327,8 @@ FilmImage WavefrontPathTracer::readFilm() const {
         const float hits = std::max(s[0].w, 1.0f);
         image.albedo.push_back(glm::vec3(s[0]) / hits);
         image.normal.push_back(glm::vec3(s[1]) / hits);
-        image.position.push_back(glm::vec3(s[2]) / hits);
+        const glm::dvec3 position = glm::dvec3(glm::vec3(s[2])) / double(hits) + scene_.origin;
+        image.position.push_back(s[0].w > 0 ? glm::vec3(position) : glm::vec3(0.0f));
         image.depth.push_back(s[0].w > 0 ? s[1].w / hits : std::numeric_limits<float>::infinity());
     });
     return image;

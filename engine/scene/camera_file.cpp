@@ -1,6 +1,7 @@
 #include "engine/error.h"
 #include "engine/scene/gltf_json_guard.h"
 #include "engine/scene/load_scene.h"
+#include "engine/scene/scene_box.h"
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -48,7 +49,8 @@ std::string cameraNames(const Scene& scene) {
 
 } // namespace
 
-Camera parseCamera(const Json& json, const std::string& file, const std::string& path) {
+Camera parseCamera(const Json& json, const std::string& file, const std::string& path,
+                   const glm::dvec3& origin) {
     const auto member = [&](const std::string& key) -> const Json& {
         if (!json.contains(key)) fail(ExitCode::BadData, "{}: '{}.{}' is missing", file, path, key);
         return json[key];
@@ -69,28 +71,28 @@ Camera parseCamera(const Json& json, const std::string& file, const std::string&
 
     Camera camera;
     camera.name = std::filesystem::path(file).stem().string();
-    camera.position = position;
+    camera.position = position - origin;
     camera.forward = glm::normalize(forward);
     camera.up = glm::normalize(glm::cross(right, forward));
     camera.verticalFov = static_cast<float>(glm::radians(fov.get<double>()));
     return camera;
 }
 
-CameraFile loadCameraFile(const std::filesystem::path& file) {
+CameraFile loadCameraFile(const std::filesystem::path& file, const glm::dvec3& origin) {
     const gltf::SourceFile source = gltf::openSource(file);
     const char* text = reinterpret_cast<const char*>(source.bytes.data());
     gltf::guardJson(source, {text, source.bytes.size()}, gltf::Schema::Any);
     const Json json = Json::parse(text, text + source.bytes.size());
     if (!json.is_object() || !json.contains("camera") || !json["camera"].is_object())
         fail(ExitCode::BadData, "{}: there is no object 'camera'", file.string());
-    return {parseCamera(json["camera"], file.string(), "camera"),
+    return {parseCamera(json["camera"], file.string(), "camera", origin),
             json.contains("env") ? readEnvironment(json["env"], file) : std::string()};
 }
 
 CameraFile chooseCamera(const Scene& scene, const std::string& choice) {
     if (choice.empty())
-        return {scene.cameras.empty() ? framingCamera(sceneBounds(scene)) : scene.cameras.front(), {}};
-    if (choice.ends_with(".json")) return loadCameraFile(choice);
+        return {scene.cameras.empty() ? framingCamera(sceneBox(scene)) : scene.cameras.front(), {}};
+    if (choice.ends_with(".json")) return loadCameraFile(choice, scene.origin);
     const auto named = std::find_if(scene.cameras.begin(), scene.cameras.end(),
                                     [&](const Camera& camera) { return camera.name == choice; });
     if (named != scene.cameras.end()) return {*named, {}};

@@ -22,9 +22,11 @@ struct CameraFile {
     std::string
         environment; // what loadEnvironment takes, with the path resolved beside the file; empty if none
 };
-CameraFile loadCameraFile(const std::filesystem::path& file);
+// The camera is placed relative to `origin`, the scene's.
+CameraFile loadCameraFile(const std::filesystem::path& file, const glm::dvec3& origin = glm::dvec3(0.0));
 // Its object "camera", which stands at `path` of the file that errors name.
-Camera parseCamera(const nlohmann::json& camera, const std::string& file, const std::string& path);
+Camera parseCamera(const nlohmann::json& camera, const std::string& file, const std::string& path,
+                   const glm::dvec3& origin);
 
 // The camera named by --camera: a name, an index or a .json file; empty = the scene's first, else a framing.
 CameraFile chooseCamera(const Scene& scene, const std::string& choice);

@@ -17,7 +17,7 @@ struct NrcOptions {
 
 class NrcRenderer {
 public:
-    // `bounds`: the box in which the cache is asked, normally the scene's.
+    // `bounds`: the box in which the cache is asked, normally sceneBox's.
     NrcRenderer(Device& device, const GpuScene& scene, const Bounds& bounds, const NrcOptions& options,
                 Profiler* profiler = nullptr);
 

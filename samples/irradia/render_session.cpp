@@ -4,6 +4,7 @@
 #include "engine/image/metrics.h"
 #include "engine/log.h"
 #include "engine/scene/area_table.h"
+#include "engine/scene/scene_box.h"
 #include "nrc/renderer/picture_memory.h"
 #include "samples/support/interrupt.h"
 #include "samples/support/numbers.h"
@@ -64,6 +65,9 @@ void reportScene(const RenderRequest& request, const Scene& scene,
                  const std::vector<std::string>& packingWarnings) {
     logLine("scene {}: {} triangles, {} materials, {} pictures", scene.name, scene.triangles.size(),
             scene.materials.size(), scene.images.size());
+    if (scene.origin != glm::dvec3(0.0))
+        logLine("scene {}: it stands about ({:g}, {:g}, {:g})", scene.name, scene.origin.x, scene.origin.y,
+                scene.origin.z);
     const std::vector<std::string> warnings = sceneWarnings(scene, packingWarnings);
     if (request.strict && !warnings.empty())
         fail(ExitCode::BadData, "{}: --strict allows no warning, and there {} {}: {}", request.scene,
@@ -193,10 +197,9 @@ void RenderSession::createRenderer(const NrcOptions& options, const SceneRecords
     auto plan = plannedBuffers(records, bvh);
     for (auto& buffer : pictureBuffers(*device_, options, hasCache())) plan.push_back(std::move(buffer));
     device_->plan(plan);
-    const Bounds bounds = sceneBounds(scene_);
-    gpuScene_ = uploadScene(*device_, records, bvh, bounds);
+    gpuScene_ = uploadScene(*device_, records, bvh);
     if (hasCache())
-        nrc_ = std::make_unique<NrcRenderer>(*device_, gpuScene_, bounds, options, &profiler_);
+        nrc_ = std::make_unique<NrcRenderer>(*device_, gpuScene_, sceneBox(scene_), options, &profiler_);
     else
         tracer_ = std::make_unique<WavefrontPathTracer>(*device_, gpuScene_, options.paths, &profiler_);
 }

@@ -98,7 +98,7 @@ SceneChange readChange(const Json& json, const std::string& file, const std::str
     if (const Json* value = fields.member("environment"))
         change.environment = readEnvironment(*value, fields, scene);
     if (const Json* value = fields.member("camera"))
-        change.camera = parseCamera(*value, file, fields.pathOf("camera"));
+        change.camera = parseCamera(*value, file, fields.pathOf("camera"), scene.origin);
     if (const Json* value = fields.member("restart")) {
         if (!value->is_boolean()) fields.refuse("restart", "true or false");
         change.restart = value->get<bool>();

@@ -86,7 +86,7 @@ void main() {
 #endif
     Frame frame = frameFromNormal(s.shadingNormal);
     vec3 v = toLocal(frame, view);
-    vec3 origin = s.position + s.geometricNormal * params.rayEpsilon;
+    vec3 origin = s.position + s.geometricNormal * s.error;
     vec3 abcView = reflectanceAt(v.z, s.roughness);
     float mendView = diffuseMend(s.bsdf, abcView);
     float pSpecular = kHasSpecular ? specularProbability(s.bsdf, abcView, mendView) : 0.0;

@@ -66,10 +66,10 @@ struct BounceParams {
     uint environmentWidth; // 1 x 1 for a constant
     uint environmentHeight;
     float environmentProbability; // of sampling the environment rather than the emissive triangles
-    float rayEpsilon;             // length by which origins leave their surface
     uint queueParity;             // depth & 1: which counter of the RayQueue pair is current
     uint log2Samples;             // of a pixel in the wave
     uint pad0;                    // to a multiple of 16 bytes
+    uint pad1;
 };
 
 // begin_bounce writes the indirect arguments: three uints for tracing and three for per-item passes.

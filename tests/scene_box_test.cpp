@@ -59,8 +59,9 @@ TEST_CASE("a stray does not belong to the box, at any scale") {
         const Bounds box = sceneBounds(scene);
         CHECK(areSame(sceneBox(scene), box));
         append(scene, closedSphere(6, 8, 0.05f * scale, scale * glm::vec3(1e4f, -300, 20)));
-        add(scene,
-            {scale * glm::vec3(0, -1e5f, 0), scale * glm::vec3(1, -1e5f, 0), scale * glm::vec3(0, -1e5f, 1)});
+        const glm::vec3 below(0, -1e5f, 0);
+        add(scene, {scale * below, scale * (below + glm::vec3(0.1f, 0, 0)),
+                    scale * (below + glm::vec3(0, 0, 0.1f))});
         CHECK(areSame(sceneBox(scene), box));
     }
 }

@@ -20,7 +20,7 @@ Scene load(const GltfBuilder& builder) {
 }
 
 glm::vec3 corner(const Scene& scene, size_t triangle, int c) {
-    return scene.vertices[scene.triangles[triangle].vertex[c]].position;
+    return glm::vec3(scene.origin + glm::dvec3(scene.vertices[scene.triangles[triangle].vertex[c]].position));
 }
 
 glm::vec3 faceNormal(const Scene& scene, size_t t) {
@@ -413,8 +413,8 @@ TEST_CASE("A scene without a camera is framed: every corner falls inside the pic
     const Scene scene = load(oneTriangle({{"scale", {40, 3, 3}}, {"translation", {-100, 7, 0}}}));
     const Camera camera = chooseCamera(scene, "").camera;
     const Bounds bounds = sceneBounds(scene);
-    CHECK(bounds.lower == glm::vec3(-100, 7, 0));
-    CHECK(bounds.upper == glm::vec3(-60, 10, 0));
+    CHECK(scene.origin + glm::dvec3(bounds.lower) == glm::dvec3(-100, 7, 0));
+    CHECK(scene.origin + glm::dvec3(bounds.upper) == glm::dvec3(-60, 10, 0));
     CHECK(std::abs(glm::dot(camera.forward, camera.up)) < 1e-6f);
     for (int i = 0; i < 8; ++i) {
         const glm::vec3 point = glm::mix(bounds.lower, bounds.upper, glm::vec3(i & 1, i >> 1 & 1, i >> 2));

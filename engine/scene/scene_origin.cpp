@@ -6,6 +6,8 @@
 namespace irradia {
 namespace {
 
+constexpr double kNear = 32.0;
+
 double median(std::vector<double>& values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());
@@ -27,8 +29,10 @@ glm::dvec3 sceneOrigin(const std::vector<glm::dvec3>& points) {
         return std::max({distance.x, distance.y, distance.z});
     });
     const double spread = median(values);
+    const double off = std::max({std::abs(center.x), std::abs(center.y), std::abs(center.z)});
+    if (off <= kNear * spread) return glm::dvec3(0.0);
     if (!(spread > 0.0)) return center;
-    const double step = std::ldexp(8.0, std::ilogb(spread));
+    const double step = std::ldexp(1.0, std::ilogb(spread));
     return step * glm::round(center / step);
 }
 

@@ -6,9 +6,9 @@
 
 namespace irradia {
 
-// The median of the points, axis by axis: no stray object moves it. It is rounded to a step of 4 to 8 times
-// their median distance from it (the largest of three axes): that costs floats three bits at most, keeps
-// coordinates exact that were, and leaves scenes alone that stand about their own origin.
+// The median of the points, axis by axis, to a step of half to once their median distance from it (the
+// largest of three axes): no stray object moves it. Scenes about their own origin, which lies within 32 such
+// distances, stay where they are, to the bit.
 glm::dvec3 sceneOrigin(const std::vector<glm::dvec3>& points);
 
 } // namespace irradia

@@ -29,4 +29,9 @@ float heightError(vec3 e1, vec3 e2, float doubleArea, vec3 reach) {
     return kRounding * (6.0 * min(permanent(reach, abs(e1), abs(e2)) / doubleArea, kSliver * longest) + longest);
 }
 
+// Of a ray that shall end before a plane: its point at `distance`, met at `cosine` > 0, and hits of it err by `error`.
+float lengthBefore(float distance, float cosine, float error) {
+    return distance * (1.0 - 4.0 * kRounding) - error / max(cosine, 1e-6);
+}
+
 #endif

@@ -54,8 +54,7 @@ LightSample sampleTriangleLight(Receiver receiver, uvec4 random) {
     float pdf = abs(cosine) > 1e-6 ? trianglePdf(choice.chance, 0.5 * doubleArea, distance, abs(cosine)) : 0.0;
     vec3 reach = abs(b.x * tri.e1) + abs(b.y * tri.e2);
     float error = pointError(normal, tri.p0, reach, point) + heightError(tri.e1, tri.e2, doubleArea, reach + abs(to));
-    float tMax = distance * (1.0 - 4.0 * kRounding) - error / max(abs(cosine), 1e-6);
-    return LightSample(direction, tMax, radiance, pdf);
+    return LightSample(direction, lengthBefore(distance, abs(cosine), error), radiance, pdf);
 }
 
 // One light sample for a vertex: `random` drives it, `choice` in [0, 1) picks the environment or the triangles.

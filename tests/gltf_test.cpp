@@ -154,7 +154,7 @@ TEST_CASE("Ranges of buffers, views and accessors") {
 }
 
 TEST_CASE("Sparse accessors out of range") {
-    const auto spoilSparse = [](int count, std::vector<uint16_t> indices, const std::string& thing) {
+    const auto spoilSparse = [](int64_t count, std::vector<uint16_t> indices, const std::string& thing) {
         GltfBuilder builder = valid();
         const int index = builder.view(indices);
         const int value = builder.view(std::vector<glm::vec3>(2));
@@ -167,6 +167,7 @@ TEST_CASE("Sparse accessors out of range") {
     spoilSparse(2, {1, 3}, "accessor 0: ACCESSOR_SPARSE_INDEX_OOB: 3 of 3");
     spoilSparse(2, {1, 1}, "ACCESSOR_SPARSE_INDICES_NON_INCREASING");
     spoilSparse(4, {0, 1}, "ACCESSOR_SPARSE_COUNT_OUT_OF_RANGE");
+    spoilSparse((1ll << 32) + 2, {0, 1}, "/accessors/0/sparse/count: VALUE_NOT_IN_RANGE");
     spoilSparse(3, {0, 1, 2}, "ACCESSOR_TOO_LONG (sparse values)");
 }
 

@@ -75,8 +75,6 @@ private:
         if (sparse.count < 1 || static_cast<uint64_t>(sparse.count) > accessor.count)
             source_.refuse("{}: ACCESSOR_SPARSE_COUNT_OUT_OF_RANGE: {} of {}", owner, sparse.count,
                            accessor.count);
-        if (sparse.indices.byteOffset < 0 || sparse.values.byteOffset < 0)
-            source_.refuse("{}: VALUE_NOT_IN_RANGE: negative sparse offset", owner);
         const auto count = static_cast<uint64_t>(sparse.count);
         const uint64_t indexSize = componentSize(type), size = elementSize(accessor);
         checkRange(owner, "ACCESSOR_TOO_LONG (sparse indices)", sparse.indices.bufferView,

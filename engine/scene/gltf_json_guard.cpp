@@ -68,7 +68,7 @@ public:
         countValue();
         const std::string_view name = property();
         if (!isInteger(name)) return true;
-        const uint64_t limit = kSizeProperties.contains(name) ? kMaxSize : kMaxIndex;
+        const uint64_t limit = kSizeProperties.contains(name) && !isSparse() ? kMaxSize : kMaxIndex;
         if (value > limit) source_.refuse("{}: VALUE_NOT_IN_RANGE: {} is above {}", where(), value, limit);
         if (isOfBuffer("byteLength")) buffer().byteLength = value;
         return true;
@@ -171,6 +171,11 @@ private:
         return path_.size() >= 6 && path_[0].key == "meshes" && path_[2].key == "primitives" &&
                ((path_.size() == 6 && path_[4].key == "attributes") ||
                 (path_.size() == 7 && path_[4].key == "targets"));
+    }
+
+    // accessors/A/sparse/...: tinygltf keeps these sizes in 32 bits.
+    bool isSparse() const {
+        return path_.size() >= 3 && path_[0].key == "accessors" && path_[2].key == "sparse";
     }
 
     // A JSON pointer to the value being read, "/accessors/3/count".

@@ -64,6 +64,28 @@ bool readWholeFile(std::vector<unsigned char>* out, std::string*, const std::str
     }
 }
 
+bool writeNothing(std::string*, const std::string&, const std::vector<unsigned char>&, void*) {
+    return false;
+}
+
+// Every callback, for tinygltf may take all of them or none. Versions from 2.9 on ask for a file's size
+// before they read it, to compare it with a limit of their own; ours is checked in reading.
+template <typename Callbacks = tinygltf::FsCallbacks>
+Callbacks fileCallbacks(FileAccess& access) {
+    Callbacks callbacks{};
+    callbacks.FileExists = fileExists;
+    callbacks.ExpandFilePath = sameName;
+    callbacks.ReadWholeFile = readWholeFile;
+    callbacks.WriteWholeFile = writeNothing;
+    callbacks.user_data = &access;
+    if constexpr (requires { callbacks.GetFileSizeInBytes; })
+        callbacks.GetFileSizeInBytes = [](size_t* size, std::string*, const std::string&, void*) {
+            *size = 0;
+            return true;
+        };
+    return callbacks;
+}
+
 // Keeps what a data URI held, of the media types that tinygltf knows. The bytes of a buffer view are
 // unchecked here and are read later.
 bool keepEncoded(tinygltf::Image* image, const int, std::string*, std::string*, int, int,
@@ -98,7 +120,7 @@ tinygltf::Model parseModel(const SourceFile& source, SceneNotes& notes) {
 
     FileAccess access{source, findings, nullptr};
     tinygltf::TinyGLTF reader;
-    reader.SetFsCallbacks({fileExists, sameName, readWholeFile, nullptr, &access});
+    reader.SetFsCallbacks(fileCallbacks(access));
     reader.SetImageLoader(keepEncoded, nullptr);
 
     tinygltf::Model model;

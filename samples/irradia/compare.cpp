@@ -3,6 +3,9 @@
 #include "engine/error.h"
 #include "engine/image/metrics.h"
 #include "engine/image/picture_file.h"
+#include "engine/log.h"
+#include "samples/support/numbers.h"
+#include "samples/support/standard_streams.h"
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -68,11 +71,11 @@ const Metric& findMetric(const std::string& name) {
 Limit parseLimit(const std::string& text) {
     const size_t equals = text.find('=');
     if (equals == std::string::npos) fail(ExitCode::Usage, "--fail-above {}: not METRIC=X", text);
-    const Metric& metric = findMetric(text.substr(0, equals));
-    double value = 0;
-    if (!CLI::detail::lexical_cast(text.substr(equals + 1), value) || !std::isfinite(value))
-        fail(ExitCode::Usage, "--fail-above {}: {} is not a number", text, text.substr(equals + 1));
-    return {&metric, value};
+    const std::string name = text.substr(0, equals);
+    const Metric& metric = findMetric(name);
+    const auto value = toNumber(text.substr(equals + 1));
+    if (!value) fail(ExitCode::Usage, "--fail-above {}: {} is not a number", text, text.substr(equals + 1));
+    return {&metric, *value};
 }
 
 struct Radiance {
@@ -93,10 +96,9 @@ void warnOfNoise(const Radiance& reference, const ImageMetrics& metrics) {
     if (!reference.image.channels.contains("Variance.R")) return;
     const double noise = relativeVariance(reference.pixels, reference.image.rgb("Variance"));
     if (metrics.relMse == 0 || !(noise > kSmall * metrics.relMse)) return;
-    fmt::print(stderr,
-               "warning: the reference's own noise is a relmse of {:.3g}, {:.0f} % of the difference: "
-               "take one of more samples\n",
-               noise, 100 * noise / metrics.relMse);
+    logLine("warning: the reference's own noise is a relmse of {:.3g}, {:.0f} % of the difference: take one of more "
+            "samples",
+            noise, 100 * noise / metrics.relMse);
 }
 
 ImageMetrics measure(const CompareOptions& options) {
@@ -108,7 +110,7 @@ ImageMetrics measure(const CompareOptions& options) {
              options.reference, reference.image.width, reference.image.height);
     const ImageMetrics metrics = compareImages(width, height, test.pixels, reference.pixels);
     if (metrics.nonFinitePixels > 0)
-        fmt::print(stderr, "warning: {} of {} pixels are not finite and in no mean\n",
+        logLine("warning: {} of {} pixels are not finite and in no mean",
                    metrics.nonFinitePixels, test.pixels.size());
     warnOfNoise(reference, metrics);
     return metrics;
@@ -121,10 +123,10 @@ void printMetrics(const ImageMetrics& metrics, bool asJson) {
         if (asJson)
             json[metric.name] = value; // null where it is not finite
         else
-            fmt::print("{:<10}  {:>12.6g}  {}\n", metric.name, value, metric.meaning);
+            printResult("{:<10}  {:>12.6g}  {}\n", metric.name, value, metric.meaning);
     }
     json["nonfinite"] = metrics.nonFinite; // a whole number
-    if (asJson) fmt::print("{}\n", json.dump());
+    if (asJson) printResult("{}\n", json.dump());
 }
 
 void compare(const CompareOptions& options) {

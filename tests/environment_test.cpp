@@ -113,8 +113,8 @@ TEST_CASE("the reduction is told, its table is that of the smaller picture") {
 
 TEST_CASE("a scene without light says so") {
     Scene scene;
-    const auto told = [](const Scene& scene, const PlannedStates& states = {}) {
-        const auto warnings = packScene(scene, states).warnings;
+    const auto told = [](const Scene& lit, const PlannedStates& states = {}) {
+        const auto warnings = packScene(lit, states).warnings;
         return warnings.size() == 1 && warnings[0].starts_with("the scene has no light");
     };
     CHECK(told(scene));

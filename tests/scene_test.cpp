@@ -267,6 +267,8 @@ TEST_CASE("Material fields, texture slots, wrap modes and coordinate sets") {
             "KHR_materials_ior": {"ior": 1.3},
             "KHR_materials_specular": {"specularFactor": 0.9, "specularColorFactor": [0.5, 1, 2],
                 "specularTexture": {"index": 1, "texCoord": 1}, "specularColorTexture": {"index": 0}}}})");
+    scene.builder.json["extensionsUsed"] = {"KHR_materials_emissive_strength", "KHR_materials_ior",
+                                            "KHR_materials_specular"};
     const Scene loaded = scene.load();
     const Material& material = loaded.materials.at(0);
     CHECK(material.name == "all");

@@ -145,6 +145,7 @@ void readAttributes(const Imf::Header& header, LayeredImage& image) {
     for (auto it = header.begin(); it != header.end(); ++it)
         if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&it.attribute()))
             image.attributes[it.name()] = text->value();
+    for (const char* ofParts : {"name", "type"}) image.attributes.erase(ofParts);
     if (Imf::hasChromaticities(header)) image.toRec709 = matrixToRec709(Imf::chromaticities(header));
 }
 

@@ -8,6 +8,7 @@ namespace {
 
 constexpr std::string_view kScheme = "data:";
 constexpr std::string_view kBase64 = ";base64";
+constexpr std::string_view kEnds = "'\",\n"; // of a URI in a message
 
 bool sameLetters(char a, char b) {
     return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
@@ -66,9 +67,8 @@ std::string withoutData(std::string text) {
         if (at == text.end()) return text;
         const auto comma = std::find(at, text.end(), ',');
         if (comma == text.end()) return text;
-        const auto end = std::find_if(comma + 1, text.end(), [](char c) {
-            return !(sixBits(c) >= 0 && c != ' ') && c != '=' && c != '%';
-        });
+        const auto end = std::find_if(comma + 1, text.end(),
+                                      [](char c) { return kEnds.find(c) != std::string_view::npos; });
         const auto kept = comma - text.begin() + 1;
         text.replace(comma + 1, end, "...");
         at = text.begin() + kept;

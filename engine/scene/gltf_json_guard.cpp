@@ -1,5 +1,6 @@
 #include "engine/scene/gltf_json_guard.h"
 
+#include "engine/scene/gltf_data_uri.h"
 #include <algorithm>
 #include <cstring>
 #include <nlohmann/json.hpp>
@@ -69,6 +70,7 @@ public:
         if (!isInteger(name)) return true;
         const uint64_t limit = kSizeProperties.contains(name) && !isSparse() ? kMaxSize : kMaxIndex;
         if (value > limit) source_.refuse("{}: VALUE_NOT_IN_RANGE: {} is above {}", where(), value, limit);
+        if (isOfBuffer("byteLength")) buffer().byteLength = value;
         return true;
     }
 
@@ -76,6 +78,7 @@ public:
         if (path_.size() == 2 && path_[0].key == "extensionsUsed") findings_.extensionsDeclared.insert(value);
         if (path_.size() == 2 && path_[0].key == "extensionsRequired")
             findings_.extensionsRequired.insert(value);
+        if (isOfBuffer("uri") && !isDataUri(value)) buffer().uri = value;
         return notAnInteger("a text");
     }
 
@@ -137,6 +140,17 @@ private:
         for (size_t i = path_.size(); i-- > 0;)
             if (!path_[i].isArray) return path_[i].key;
         return {};
+    }
+
+    // buffers/B/NAME
+    bool isOfBuffer(std::string_view name) const {
+        return schema_ == Schema::Gltf && path_.size() == 3 && path_[0].key == "buffers" &&
+               path_[2].key == name;
+    }
+
+    BufferClaim& buffer() {
+        findings_.buffers.resize(std::max<size_t>(findings_.buffers.size(), path_[1].index));
+        return findings_.buffers[path_[1].index - 1];
     }
 
     bool isExtra() const {

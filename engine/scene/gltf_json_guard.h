@@ -7,11 +7,19 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace irradia::gltf {
 
-// The names of extensions, needed before parsing: a file may make no sense without one.
+// A buffer in a file beside the scene, as the JSON states it.
+struct BufferClaim {
+    std::string uri;
+    uint64_t byteLength = 0;
+};
+
+// What is needed before parsing.
 struct JsonFindings {
+    std::vector<BufferClaim> buffers;         // in the file's order
     std::set<std::string> extensionsDeclared; // in extensionsUsed
     std::set<std::string> extensionsRequired;
     std::set<std::string> extensionsFound; // where an object holds its "extensions"

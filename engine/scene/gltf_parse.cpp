@@ -4,6 +4,7 @@
 #include "engine/scene/gltf_features.h"
 #include "engine/scene/gltf_foreign.h"
 #include "engine/scene/gltf_json_guard.h"
+#include <algorithm>
 #include <exception>
 #include <sstream>
 
@@ -13,7 +14,23 @@ namespace {
 // Where the callbacks find the scene's folder, and leave an Error: tinygltf knows only success and failure.
 struct FileAccess {
     const SourceFile& source;
+    const JsonFindings& findings;
     std::exception_ptr error;
+
+    // The buffer that tinygltf asks for: it takes "+" for a space, which is right in queries alone.
+    const BufferClaim* find(const std::string& asked) const {
+        for (const BufferClaim& buffer : findings.buffers) {
+            std::string spaced = buffer.uri;
+            std::ranges::replace(spaced, '+', ' ');
+            if (decodeUri(spaced) == asked) return &buffer;
+        }
+        return nullptr;
+    }
+
+    std::string decoded(const std::string& asked) const {
+        const BufferClaim* buffer = find(asked);
+        return buffer ? decodeUri(buffer->uri) : asked;
+    }
 };
 
 // tinygltf looks for a uri first as it stands, then in "."; the first look decides.
@@ -21,7 +38,7 @@ bool fileExists(const std::string& uri, void* user) {
     auto& access = *static_cast<FileAccess*>(user);
     if (access.error) return false;
     try {
-        if (!isDataUri(uri)) resolveUri(access.source, uri);
+        if (!isDataUri(uri)) resolveUri(access.source, access.decoded(uri));
         return true;
     } catch (...) {
         access.error = std::current_exception();
@@ -36,7 +53,10 @@ std::string sameName(const std::string& uri, void*) {
 bool readWholeFile(std::vector<unsigned char>* out, std::string*, const std::string& uri, void* user) {
     auto& access = *static_cast<FileAccess*>(user);
     try {
-        *out = readUri(access.source, uri);
+        *out = readUri(access.source, access.decoded(uri));
+        // A file may be longer than its buffer (glTF 2.0, 3.6.1.1); tinygltf wants the one length.
+        if (const BufferClaim* buffer = access.find(uri); buffer && buffer->byteLength < out->size())
+            out->resize(buffer->byteLength);
         return true;
     } catch (...) {
         access.error = std::current_exception();
@@ -98,7 +118,7 @@ tinygltf::Model parseModel(const SourceFile& source, SceneNotes& notes) {
     refuseUnreadableExtensions(source, findings);
     noteExtensions(findings, notes);
 
-    FileAccess access{source, nullptr};
+    FileAccess access{source, findings, nullptr};
     tinygltf::TinyGLTF reader;
     reader.SetFsCallbacks(fileCallbacks(access));
     reader.SetImageLoader(keepEncoded, nullptr);

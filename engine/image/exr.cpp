@@ -7,7 +7,9 @@
 #include <ImfHeader.h>
 #include <ImfIO.h>
 #include <ImfInputFile.h>
+#include <ImfMatrixAttribute.h>
 #include <ImfOutputFile.h>
+#include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
 #include <exception>
 
@@ -68,11 +70,23 @@ void checkBeforeWriting(const std::filesystem::path& file, const LayeredImage& i
                  values.size(), image.width, image.height);
 }
 
+// OpenEXR multiplies row vectors, GLSL column vectors: a row of the one is a column of the other.
+template <typename To, typename From>
+To matrixAs(const From& matrix) {
+    To result;
+    for (int i = 0; i < 4; ++i)
+        for (int k = 0; k < 4; ++k) result[i][k] = matrix[i][k];
+    return result;
+}
+
 Imf::Header makeHeader(const LayeredImage& image) {
     Imf::Header header(image.width, image.height);
     header.compression() = Imf::ZIP_COMPRESSION;
     for (const auto& entry : image.channels) header.channels().insert(entry.first, Imf::Channel(Imf::FLOAT));
     for (const auto& [name, value] : image.attributes) header.insert(name, Imf::StringAttribute(value));
+    for (const auto& [name, value] : image.matrices)
+        header.insert(name, Imf::M44fAttribute(matrixAs<Imath::M44f>(value)));
+    Imf::addChromaticities(header, Imf::Chromaticities()); // of Rec. 709
     return header;
 }
 
@@ -93,9 +107,12 @@ void readSize(const Imath::Box2i& window, LayeredImage& image) {
 }
 
 void readAttributes(const Imf::Header& header, LayeredImage& image) {
-    for (auto it = header.begin(); it != header.end(); ++it)
+    for (auto it = header.begin(); it != header.end(); ++it) {
         if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&it.attribute()))
             image.attributes[it.name()] = text->value();
+        if (const auto* matrix = dynamic_cast<const Imf::M44fAttribute*>(&it.attribute()))
+            image.matrices[it.name()] = matrixAs<glm::mat4>(matrix->value());
+    }
 }
 
 // Half and unsigned channels become float on the way.

@@ -1,8 +1,15 @@
 #include "engine/path/film_image.h"
 
+#include "engine/error.h"
+
 namespace irradia {
 
+void requireFrames(const FilmImage& film) {
+    if (film.frames == 0) fail(ExitCode::Internal, "no frame was rendered, so that there is no picture");
+}
+
 LayeredImage toLayers(const FilmImage& film) {
+    requireFrames(film);
     LayeredImage image;
     image.width = film.width;
     image.height = film.height;

@@ -24,7 +24,11 @@ struct FilmImage {
     std::vector<float> depth;        // along the camera's axis; infinity where nothing was hit
 };
 
+// A film that holds no frame is no picture. Throws Error(Internal).
+void requireFrames(const FilmImage& film);
+
 // Channels by pbrt's names: R G B, Variance.*, SampleCount.V, and Albedo.*, N.*, P.*, Z where gathered.
+// Throws as requireFrames.
 LayeredImage toLayers(const FilmImage& film);
 
 } // namespace irradia

@@ -4,6 +4,7 @@
 #include "engine/image/metrics.h"
 #include "engine/log.h"
 #include "engine/scene/area_table.h"
+#include "methods.h"
 #include "samples/support/interrupt.h"
 #include "samples/support/numbers.h"
 #include "samples/support/program.h"
@@ -21,17 +22,10 @@ RecordAccess parseRecords(const std::string& text) {
     return RecordAccess::Auto;
 }
 
-void requireKnownMethod(const std::string& method) {
-    for (const char* known : {"pt", "nrc", "cache-view"})
-        if (method == known) return;
-    fail(ExitCode::Usage, "--method {} is unknown; there are pt, nrc and cache-view", method);
-}
-
 NrcConfig nrcConfig(const RenderRequest& request) {
     NrcConfig config =
         request.preset.ends_with(".json") ? loadNrcConfig(request.preset) : nrcPreset(request.preset);
-    if (!request.network.empty()) config.model = loadModelConfig(request.network);
-    if (request.method == "cache-view") config.endDepth = 0;
+    if (!request.network.empty()) config.model = loadCacheModel(request.network);
     return config;
 }
 
@@ -63,7 +57,13 @@ void reportScene(const Scene& scene, const std::vector<std::string>& packingWarn
 
 void addRequestOptions(CLI::App& command, RenderRequest& request) {
     command.add_option("scene", request.scene, "glTF scene, .gltf or .glb")->required();
-    command.add_option("--camera", request.camera, "Camera by name, index or .json file")->group("Scene");
+    command
+        .add_option("--camera", request.camera,
+                    "Camera by name, index or .json file: {\"camera\": {\"position\": [x,y,z], "
+                    "\"look_at\": [x,y,z], \"up\": [x,y,z] (may be left out: +Y), \"vfov_deg\": degrees}, "
+                    "\"env\": an .exr or .hdr beside the file, or [R,G,B] (may be left out; --env comes "
+                    "first)}; \"aspect\" and what stands beside these two is ignored")
+        ->group("Scene");
     command.add_option("--env", request.environment, "Environment: .exr, .hdr or R,G,B")->group("Scene");
     command
         .add_option(
@@ -73,7 +73,9 @@ void addRequestOptions(CLI::App& command, RenderRequest& request) {
         ->capture_default_str();
     command
         .add_option("--preset", request.preset,
-                    fmt::format("Of the cache: {}, or a .json file", fmt::join(nrcPresetNames(), ", ")))
+                    fmt::format("Of the cache: {}, or a .json file, which may inherit what it does not give: "
+                                "{{\"base\": \"balanced\", ...}}",
+                                fmt::join(nrcPresetNames(), ", ")))
         ->group("Method")
         ->capture_default_str();
     command
@@ -82,7 +84,10 @@ void addRequestOptions(CLI::App& command, RenderRequest& request) {
         ->group("Method");
     command.add_option("--reference", request.reference, "EXR of the same size, for --view error-sign")
         ->group("Method");
-    command.add_option("--network", request.network, "Model of the cache, a .json file")->group("Method");
+    command
+        .add_option("--network", request.network,
+                    "Model of the cache, a .json file; with a \"base\", that preset's model changed")
+        ->group("Method");
     command.add_option("--size", request.size, "Picture, WxH")->group("Method")->capture_default_str();
     addWhole(command, "--spp", request.samplesPerFrame, "Samples of a pixel per frame", 1, 65536)
         ->group("Method")
@@ -117,7 +122,7 @@ std::vector<NamedFile> inputFiles(const RenderRequest& request) {
 RenderSession::RenderSession(const RenderRequest& request)
     : request_(request)
     , size_(parseSize(request.size)) {
-    requireKnownMethod(request.method);
+    if (methodHasCache(request.method)) preset_ = nrcConfig(request);
     view_ = findView(request.view);
     reference_ = loadReference(view_, request.reference, size_);
     request_.device.records = parseRecords(request.records);
@@ -162,20 +167,15 @@ NrcOptions RenderSession::rendererOptions() const {
     options.paths.seed = request_.seed;
     options.paths.surfaces = request_.surfaces;
     options.seed = request_.seed;
-    const bool hasCache = request_.method != "pt";
-    if (hasCache) {
-        options.config = nrcConfig(request_);
-        view_.applyTo(options);
-    }
-    if (!hasCache && !request_.network.empty())
-        fail(ExitCode::Usage, "--network is for the methods with a cache; --method pt has none");
-    if (!hasCache && view_.needsCache())
-        fail(ExitCode::Usage, "--view {} is for the methods with a cache; --method pt has none", view_.name);
+    if (!methodHasCache(request_.method)) return options;
+    options.config = preset_;
+    if (request_.method == "cache-view") options.config.endDepth = 0;
+    view_.applyTo(options);
     return options;
 }
 
 void RenderSession::createRenderer(const NrcOptions& options, const SceneRecords& records, const Bvh& bvh) {
-    const bool hasCache = request_.method != "pt";
+    const bool hasCache = methodHasCache(request_.method);
     auto plan = plannedBuffers(records, bvh);
     for (auto& buffer : hasCache ? NrcRenderer::plannedBuffers(*device_, options)
                                  : WavefrontPathTracer::plannedBuffers(*device_, options.paths))
@@ -224,6 +224,7 @@ double RenderSession::renderWith(uint32_t randomIndex) {
 
 FilmImage RenderSession::readFilm() const {
     FilmImage film = tracer().readFilm();
+    requireFrames(film);
     view_.finish(film, reference_);
     return film;
 }

@@ -182,12 +182,14 @@ TEST_CASE("a share of uniform records changes neither the number of records nor 
 }
 
 TEST_CASE("the share of uniform records is configured as JSON, and needs an area table") {
-    CHECK(parseNrcConfig("{}", "x").uniformShare == 0.0f);
-    CHECK(parseNrcConfig(R"({"training": {"uniform_share": 0.05}})", "x").uniformShare == 0.05f);
+    CHECK(nrcPreset("balanced").uniformShare == 0.0f);
+    const auto share = [](const std::string& value) {
+        return parseNrcConfig(R"({"base": "fast", "training": {"uniform_share": )" + value + "}}", "x")
+            .uniformShare;
+    };
+    CHECK(share("0.05") == 0.05f);
     for (const char* value : {"-0.01", "1.5", "\"some\""})
-        expectError(ExitCode::BadData, "training.uniform_share", [&] {
-            parseNrcConfig(std::string(R"({"training": {"uniform_share": )") + value + "}}", "x");
-        });
+        expectError(ExitCode::BadData, "training.uniform_share", [&] { share(value); });
     NrcOptions uniform = options(16);
     uniform.config.uniformShare = 0.05f;
     NrcRenderer renderer(device(), cornell().gpu, cornell().bounds, uniform);

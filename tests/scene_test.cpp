@@ -409,6 +409,14 @@ TEST_CASE("Cameras: world transform without scale, perspective and orthographic"
     CHECK(chooseCamera(scene, "flat").camera.isOrthographic());
     CHECK_THROWS_AS(chooseCamera(scene, "2"), Error);
     CHECK_THROWS_AS(chooseCamera(scene, "ear"), Error);
+    Scene several;
+    several.name = "room";
+    several.cameras.resize(20);
+    several.cameras[1].name = "door";
+    CHECK(chooseCamera(several, "19").camera.name.empty());
+    CHECK_THROWS_WITH(chooseCamera(several, "20"),
+                      "camera '20': the scene 'room' has camera 0, 1 'door', 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, "
+                      "12, 13, 14, 15 and 4 more");
 }
 
 TEST_CASE("A scene without a camera is framed: every corner falls inside the picture") {

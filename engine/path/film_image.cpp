@@ -1,5 +1,7 @@
 #include "engine/path/film_image.h"
 
+#include "engine/error.h"
+
 namespace irradia {
 
 void FilmImage::reserve(size_t pixels, bool hasVariance, bool hasLayers) {
@@ -15,7 +17,12 @@ uint64_t FilmImage::hostBytes(uint64_t pixels, bool hasLayers) {
     return pixels * (2 * film + sizeof(float)); // as vectors and as channels, and the count of samples
 }
 
+void requireFrames(const FilmImage& film) {
+    if (film.frames == 0) fail(ExitCode::Internal, "no frame was rendered, so that there is no picture");
+}
+
 LayeredImage toLayers(const FilmImage& film) {
+    requireFrames(film);
     LayeredImage image;
     image.width = film.width;
     image.height = film.height;

@@ -28,7 +28,11 @@ struct FilmImage {
     static uint64_t hostBytes(uint64_t pixels, bool hasLayers);
 };
 
+// A film that holds no frame is no picture. Throws Error(Internal).
+void requireFrames(const FilmImage& film);
+
 // Channels by pbrt's names: R G B, Variance.*, SampleCount.V, and Albedo.*, N.*, P.*, Z where gathered.
+// Throws as requireFrames.
 LayeredImage toLayers(const FilmImage& film);
 
 } // namespace irradia

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 namespace irradia {
@@ -41,10 +42,25 @@ std::string readEnvironment(const Json& value, const std::filesystem::path& file
     return fmt::format("{},{},{}", colour.x, colour.y, colour.z);
 }
 
+// "camera 0 'front', 1, 2 and 7 more".
 std::string cameraNames(const Scene& scene) {
+    constexpr size_t kMostNames = 16;
     std::string names;
-    for (const Camera& camera : scene.cameras) names += (names.empty() ? "'" : ", '") + camera.name + "'";
+    for (size_t i = 0; i < std::min(scene.cameras.size(), kMostNames); ++i) {
+        const std::string& name = scene.cameras[i].name;
+        names += (i == 0 ? "camera " : ", ") + std::to_string(i) + (name.empty() ? "" : " '" + name + "'");
+    }
+    if (scene.cameras.size() > kMostNames)
+        names += fmt::format(" and {} more", scene.cameras.size() - kMostNames);
     return names.empty() ? "no camera" : names;
+}
+
+void requireKnownKeys(const Json& camera, const std::string& file, const std::string& path) {
+    constexpr const char* kKeys[] = {"position", "look_at", "up", "vfov_deg", "aspect"};
+    for (const auto& [key, value] : camera.items())
+        if (std::ranges::find(kKeys, key) == std::end(kKeys))
+            fail(ExitCode::BadData, "{}: unknown key {}, there are {} in '{}'", file, Json(key).dump(),
+                 fmt::join(kKeys, ", "), path);
 }
 
 } // namespace
@@ -60,6 +76,7 @@ Camera parseCamera(const Json& json, const std::string& file, const std::string&
     };
     const auto read = [&](const std::string& key) { return vector(member(key), {file, path + "." + key}); };
     if (!json.is_object()) Field{file, path}.refuse("an object");
+    requireKnownKeys(json, file, path);
     const glm::dvec3 position = read("position");
     const glm::dvec3 forward = read("look_at") - position;
     const glm::dvec3 right = glm::cross(forward, json.contains("up") ? read("up") : glm::dvec3(0, 1, 0));

@@ -16,7 +16,8 @@ Scene loadScene(const std::filesystem::path& file);
 // of what had to be mended go to `notes`. Throws Error as loadScene.
 Environment loadEnvironment(const std::string& text, SceneNotes* notes = nullptr);
 
-// A camera file: {"camera": {"position", "look_at", "up", "vfov_deg"}, "env": path | [r,g,b] | null}.
+// A camera file: {"camera": {"position", "look_at", "up", "vfov_deg"}, "env": path | [r,g,b] | null}. What
+// stands beside these two is information, as is "aspect" inside "camera"; other keys there are errors.
 struct CameraFile {
     Camera camera;
     std::string

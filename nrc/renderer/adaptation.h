@@ -24,6 +24,8 @@ struct AdaptationConfig {
     // Steps of agreement from which on the learning rate falls as one over their number, to a fifth (Robbins
     // and Monro 1951): what wanders by learning's own noise comes to rest. 0 = never.
     uint32_t settling = 1024;
+
+    bool operator==(const AdaptationConfig&) const = default;
 };
 
 // Depends on what the frames before have found alone, so that the same frames learn the same.

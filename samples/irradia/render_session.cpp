@@ -5,6 +5,7 @@
 #include "engine/log.h"
 #include "engine/scene/area_table.h"
 #include "engine/scene/scene_box.h"
+#include "methods.h"
 #include "nrc/renderer/picture_memory.h"
 #include "samples/support/interrupt.h"
 #include "samples/support/numbers.h"
@@ -23,17 +24,10 @@ RecordAccess parseRecords(const std::string& text) {
     return RecordAccess::Auto;
 }
 
-void requireKnownMethod(const std::string& method) {
-    for (const char* known : {"pt", "nrc", "cache-view"})
-        if (method == known) return;
-    fail(ExitCode::Usage, "--method {} is unknown; there are pt, nrc and cache-view", method);
-}
-
 NrcConfig nrcConfig(const RenderRequest& request) {
     NrcConfig config =
         request.preset.ends_with(".json") ? loadNrcConfig(request.preset) : nrcPreset(request.preset);
-    if (!request.network.empty()) config.model = loadModelConfig(request.network);
-    if (request.method == "cache-view") config.endDepth = 0;
+    if (!request.network.empty()) config.model = loadCacheModel(request.network);
     return config;
 }
 
@@ -79,7 +73,13 @@ void reportScene(const RenderRequest& request, const Scene& scene,
 
 void addRequestOptions(CLI::App& command, RenderRequest& request) {
     command.add_option("scene", request.scene, "glTF scene, .gltf or .glb")->required();
-    command.add_option("--camera", request.camera, "Camera by name, index or .json file")->group("Scene");
+    command
+        .add_option("--camera", request.camera,
+                    "Camera by name, index or .json file: {\"camera\": {\"position\": [x,y,z], "
+                    "\"look_at\": [x,y,z], \"up\": [x,y,z] (may be left out: +Y), \"vfov_deg\": degrees}, "
+                    "\"env\": an .exr or .hdr beside the file, or [R,G,B] (may be left out; --env comes "
+                    "first)}; \"aspect\" and what stands beside these two is ignored")
+        ->group("Scene");
     command
         .add_option("--env", request.environment, "Environment: FILE.exr, FILE.exr:LAYER, FILE.hdr or R,G,B")
         ->group("Scene");
@@ -92,7 +92,9 @@ void addRequestOptions(CLI::App& command, RenderRequest& request) {
         ->capture_default_str();
     command
         .add_option("--preset", request.preset,
-                    fmt::format("Of the cache: {}, or a .json file", fmt::join(nrcPresetNames(), ", ")))
+                    fmt::format("Of the cache: {}, or a .json file, which may inherit what it does not give: "
+                                "{{\"base\": \"balanced\", ...}}",
+                                fmt::join(nrcPresetNames(), ", ")))
         ->group("Method")
         ->capture_default_str();
     command
@@ -101,7 +103,10 @@ void addRequestOptions(CLI::App& command, RenderRequest& request) {
         ->group("Method");
     command.add_option("--reference", request.reference, "EXR of the same size, for --view error-sign")
         ->group("Method");
-    command.add_option("--network", request.network, "Model of the cache, a .json file")->group("Method");
+    command
+        .add_option("--network", request.network,
+                    "Model of the cache, a .json file; with a \"base\", that preset's model changed")
+        ->group("Method");
     command.add_option("--size", request.size, "Picture, WxH")->group("Method")->capture_default_str();
     addWhole(command, "--spp", request.samplesPerFrame, "Samples of a pixel per frame", 1, 65536)
         ->group("Method")
@@ -136,7 +141,7 @@ std::vector<NamedFile> inputFiles(const RenderRequest& request) {
 RenderSession::RenderSession(const RenderRequest& request)
     : request_(request)
     , size_(parseSize(request.size)) {
-    requireKnownMethod(request.method);
+    if (methodHasCache(request.method)) preset_ = nrcConfig(request);
     view_ = findView(request.view);
     reference_ = loadReference(view_, request.reference, size_);
     request_.device.records = parseRecords(request.records);
@@ -173,6 +178,10 @@ std::vector<NamedFile> RenderSession::inputs() const {
     return files;
 }
 
+bool RenderSession::hasCache() const {
+    return methodHasCache(request_.method);
+}
+
 NrcOptions RenderSession::rendererOptions() const {
     NrcOptions options;
     options.paths.width = size_.x;
@@ -182,14 +191,10 @@ NrcOptions RenderSession::rendererOptions() const {
     options.paths.seed = request_.seed;
     options.paths.surfaces = request_.surfaces;
     options.seed = request_.seed;
-    if (hasCache()) {
-        options.config = nrcConfig(request_);
-        view_.applyTo(options);
-    }
-    if (!hasCache() && !request_.network.empty())
-        fail(ExitCode::Usage, "--network is for the methods with a cache; --method pt has none");
-    if (!hasCache() && view_.needsCache())
-        fail(ExitCode::Usage, "--view {} is for the methods with a cache; --method pt has none", view_.name);
+    if (!hasCache()) return options;
+    options.config = preset_;
+    if (request_.method == "cache-view") options.config.endDepth = 0;
+    view_.applyTo(options);
     return options;
 }
 
@@ -240,6 +245,7 @@ double RenderSession::renderWith(uint32_t randomIndex) {
 
 FilmImage RenderSession::readFilm() const {
     FilmImage film = tracer().readFilm();
+    requireFrames(film);
     view_.finish(film, reference_);
     return film;
 }

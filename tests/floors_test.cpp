@@ -45,6 +45,7 @@ constexpr std::array kRooms{
     Room{"samples/embed/", 5},
     Room{"samples/fit_image/pixels/", 2}, // kernels
     Room{"samples/fit_image/", 5},
+    Room{"samples/pictures/", 5},
     Room{"samples/scenes/", 5},
     Room{"tests/", 5},
     Room{"tests/reference/", 5},

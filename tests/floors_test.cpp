@@ -26,6 +26,7 @@ struct Room {
 
 constexpr std::array kRooms{
     Room{"engine/error.h", 0},
+    Room{"engine/log.h", 0},
     Room{"shaders/shared/", 0}, // layouts, read by C++ and GLSL
     Room{"shaders/lib/", 1},
     Room{"engine/gpu/", 1},
@@ -44,6 +45,7 @@ constexpr std::array kRooms{
     Room{"samples/embed/", 5},
     Room{"samples/fit_image/pixels/", 2}, // kernels
     Room{"samples/fit_image/", 5},
+    Room{"samples/pictures/", 5},
     Room{"samples/scenes/", 5},
     Room{"tests/", 5},
     Room{"tests/reference/", 5},

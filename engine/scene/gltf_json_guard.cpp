@@ -1,6 +1,6 @@
 #include "engine/scene/gltf_json_guard.h"
 
-#include <array>
+#include <algorithm>
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -73,8 +73,9 @@ public:
     }
 
     bool string(std::string& value) override {
+        if (path_.size() == 2 && path_[0].key == "extensionsUsed") findings_.extensionsDeclared.insert(value);
         if (path_.size() == 2 && path_[0].key == "extensionsRequired")
-            findings_.extensionsRequired.push_back(value);
+            findings_.extensionsRequired.insert(value);
         return notAnInteger("a text");
     }
 
@@ -85,6 +86,8 @@ public:
 
     bool key(std::string& name) override {
         path_.back().key = name;
+        if (path_.size() > 1 && path_[path_.size() - 2].key == "extensions" && !isExtra())
+            findings_.extensionsFound.insert(name);
         return true;
     }
 
@@ -134,6 +137,10 @@ private:
         for (size_t i = path_.size(); i-- > 0;)
             if (!path_[i].isArray) return path_[i].key;
         return {};
+    }
+
+    bool isExtra() const {
+        return std::ranges::any_of(path_, [](const Level& level) { return level.key == "extras"; });
     }
 
     bool isInteger(std::string_view name) const {

@@ -1,6 +1,8 @@
 #include "engine/scene/gltf_parse.h"
 
+#include "engine/scene/gltf_data_uri.h"
 #include "engine/scene/gltf_features.h"
+#include "engine/scene/gltf_foreign.h"
 #include "engine/scene/gltf_json_guard.h"
 #include <exception>
 #include <sstream>
@@ -19,7 +21,7 @@ bool fileExists(const std::string& uri, void* user) {
     auto& access = *static_cast<FileAccess*>(user);
     if (access.error) return false;
     try {
-        resolveUri(access.source, uri);
+        if (!isDataUri(uri)) resolveUri(access.source, uri);
         return true;
     } catch (...) {
         access.error = std::current_exception();
@@ -34,7 +36,7 @@ std::string sameName(const std::string& uri, void*) {
 bool readWholeFile(std::vector<unsigned char>* out, std::string*, const std::string& uri, void* user) {
     auto& access = *static_cast<FileAccess*>(user);
     try {
-        *out = readBeside(access.source, uri);
+        *out = readUri(access.source, uri);
         return true;
     } catch (...) {
         access.error = std::current_exception();
@@ -64,7 +66,8 @@ Callbacks fileCallbacks(FileAccess& access) {
     return callbacks;
 }
 
-// Keeps what a data URI held. The bytes of a buffer view are unchecked here and are read later.
+// Keeps what a data URI held, of the media types that tinygltf knows. The bytes of a buffer view are
+// unchecked here and are read later.
 bool keepEncoded(tinygltf::Image* image, const int, std::string*, std::string*, int, int,
                  const unsigned char* bytes, int size, void*) {
     image->as_is = true;
@@ -89,8 +92,11 @@ std::string firstLine(const std::string& text) {
 } // namespace
 
 tinygltf::Model parseModel(const SourceFile& source, SceneNotes& notes) {
+    refuseForeignFormat(source);
     const std::string_view json = jsonText(source);
-    refuseUnknownExtensions(source, guardJson(source, json).extensionsRequired);
+    const JsonFindings findings = guardJson(source, json);
+    refuseUnreadableExtensions(source, findings);
+    noteExtensions(findings, notes);
 
     FileAccess access{source, nullptr};
     tinygltf::TinyGLTF reader;

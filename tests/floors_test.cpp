@@ -26,6 +26,7 @@ struct Room {
 
 constexpr std::array kRooms{
     Room{"engine/error.h", 0},
+    Room{"engine/log.h", 0},
     Room{"shaders/shared/", 0}, // layouts, read by C++ and GLSL
     Room{"shaders/lib/", 1},
     Room{"engine/gpu/", 1},

@@ -358,28 +358,3 @@ TEST_CASE("an HDR cut short anywhere is refused") {
         expectError(ExitCode::BadData, "sky.hdr", [&] { readHdrBytes(folder, cut); });
     }
 }
-
-// ---- the screen's curve
-
-TEST_CASE("a screen shows radiance through the sRGB curve") {
-    constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-    constexpr float kInfinity = std::numeric_limits<float>::infinity();
-    // 255 f(x): f(0.002) = 12.92 x; f(0.18) = 0.46136; f(0.5) = 0.73536
-    const std::vector<glm::vec3> radiance{
-        {0, 1, 2}, {0.002f, 0.18f, 0.5f}, {kNan, kInfinity, -kInfinity}, {-1, 0.99999f, 1e-9f}};
-    const Rgba8Image shown = toDisplay(2, 2, radiance);
-    CHECK(shown.width == 2);
-    CHECK(shown.height == 2);
-    CHECK(shown.pixels ==
-          std::vector<uint8_t>{0, 255, 255, 255, 7, 118, 188, 255, 0, 255, 0, 255, 0, 255, 0, 255});
-}
-
-TEST_CASE("the heat map changes its colour with each doubling of a number") {
-    const std::pair<float, glm::vec3> colours[] = {
-        {-1.0f, {0, 0, 0}}, {0.0f, {0, 0, 0}}, {0.25f, {0, 0, 0.25f}}, {1.0f, {0, 0, 1}},   {2.0f, {0, 1, 1}},
-        {4.0f, {0, 1, 0}},  {8.0f, {1, 1, 0}}, {16.0f, {1, 0, 0}},     {1000.0f, {1, 0, 0}}};
-    for (const auto& [number, colour] : colours) CHECK(heatColour(number) == colour);
-    const glm::vec3 between = heatColour(std::sqrt(32.0f)); // half-way from 4 to 8
-    CHECK(between.g == 1.0f);
-    CHECK(std::abs(between.r - 0.5f) < 1e-6f); // log2 rounds
-}

@@ -1,6 +1,7 @@
 // The memory of a device: the plan, the budget, and allocations within it.
 #include "engine/error.h"
 #include "engine/gpu/device_state.h"
+#include "engine/log.h"
 #include <algorithm>
 #include <bit>
 #include <cstdio>
@@ -55,8 +56,8 @@ void Device::plan(const std::vector<PlannedBuffer>& buffers) const {
     const uint64_t sum = std::accumulate(buffers.begin(), buffers.end(), uint64_t{0},
                                          [](uint64_t total, const auto& b) { return total + b.bytes; });
     const std::string largest = largestOf(buffers);
-    fmt::print(stderr, "memory: {:.1f} MiB planned ({}), {:.1f} used, budget {:.0f}\n", mebibytes(sum),
-               largest, mebibytes(memoryUsed()), mebibytes(memoryBudget()));
+    logLine("memory: {:.1f} MiB planned ({}), {:.1f} used, budget {:.0f}", mebibytes(sum), largest,
+            mebibytes(memoryUsed()), mebibytes(memoryBudget()));
     if (sum > state_->memoryLeft())
         fail(
             ExitCode::OutOfMemory,

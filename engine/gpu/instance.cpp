@@ -2,6 +2,7 @@
 #include "engine/error.h"
 #include "engine/gpu/device.h"
 #include "engine/gpu/lavapipe.h"
+#include "engine/log.h"
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -33,7 +34,7 @@ VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
                                          VkDebugUtilsMessageTypeFlagsEXT,
                                          const VkDebugUtilsMessengerCallbackDataEXT* data, void* counter) {
     ++*static_cast<std::atomic<uint64_t>*>(counter);
-    fmt::print(stderr, "validation: {}\n", data->pMessage);
+    logLine("validation: {}", data->pMessage);
     return VK_FALSE;
 }
 

@@ -47,13 +47,6 @@ Rgba8Image decodeImage(std::span<const uint8_t> bytes, const std::string& name);
 std::vector<uint8_t> encodePng(const Rgba8Image& image);
 void writePng(const std::filesystem::path& file, const Rgba8Image& image);
 
-// Exposure 1, sRGB curve, clamped: the picture --png writes.
-Rgba8Image toDisplay(int width, int height, std::span<const glm::vec3> radiance);
-
-// The colour of a number of things on a map: black none, blue 1, cyan 2, green 4, yellow 8, red 16 and more;
-// in between linear, from 1 on in the number's logarithm.
-glm::vec3 heatColour(float number);
-
 // Writes bytes atomically (temporary, fsync, rename). Throws Error(Io).
 void writeFileAtomically(const std::filesystem::path& file, std::span<const uint8_t> bytes);
 

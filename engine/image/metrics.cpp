@@ -1,6 +1,7 @@
 #include "engine/image/metrics.h"
 
 #include "engine/error.h"
+#include "engine/image/display.h"
 #include "engine/image/flip.h"
 #include <cmath>
 #include <limits>
@@ -14,11 +15,6 @@ constexpr double kEpsilon = 0.01;
 
 bool isFinite(const glm::vec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
-// Of linear Rec. 709.
-double luminance(const glm::vec3& c) {
-    return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z;
 }
 
 void checkSizes(int width, int height, std::span<const glm::vec3> test,

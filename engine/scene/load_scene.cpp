@@ -59,6 +59,18 @@ void appendMeshes(const gltf::SourceFile& source, const tinygltf::Model& model,
     }
 }
 
+// The file itself and those it names: its buffers, and its pictures whether used or not.
+std::vector<std::filesystem::path> filesOf(const gltf::SourceFile& source, const tinygltf::Model& model) {
+    std::vector<std::filesystem::path> files{source.path};
+    const auto add = [&](const std::string& uri) {
+        const bool isBeside = !uri.empty() && uri.find(':') == std::string::npos; // else in the file itself
+        if (isBeside) files.push_back(source.path.parent_path() / gltf::decodeUri(uri));
+    };
+    for (const tinygltf::Buffer& buffer : model.buffers) add(buffer.uri);
+    for (const tinygltf::Image& image : model.images) add(image.uri);
+    return files;
+}
+
 Scene readScene(const std::filesystem::path& file) {
     const gltf::SourceFile source = gltf::openSource(file);
     Scene scene;
@@ -67,6 +79,7 @@ Scene readScene(const std::filesystem::path& file) {
 
     const tinygltf::Model model = gltf::parseModel(source, scene.notes);
     gltf::validateModel(source, model);
+    scene.files = filesOf(source, model);
     gltf::noteIgnoredFeatures(model, scene.notes);
 
     const std::vector<gltf::Placement> nodes = gltf::placeNodes(model);

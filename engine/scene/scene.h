@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <glm/glm.hpp>
 #include <string>
 #include <vector>
@@ -98,7 +99,8 @@ struct Scene {
     std::vector<Camera> cameras;
     Environment environment;
     SceneNotes notes;
-    uint64_t contentHash = 0; // FNV-1a of the file's bytes, recorded in outputs
+    std::vector<std::filesystem::path> files; // that it was read from
+    uint64_t contentHash = 0;                 // FNV-1a of the file's bytes, recorded in outputs
 };
 
 struct Bounds {

@@ -2,10 +2,15 @@
 
 #include "default_network.h"
 #include "engine/error.h"
+#include "engine/image/display.h"
 #include "engine/image/image.h"
+#include "engine/log.h"
 #include "samples/fit_image/image_learner.h"
 #include "samples/fit_image/learning_curve.h"
+#include "samples/support/interrupt.h"
+#include "samples/support/outputs.h"
 #include "samples/support/progress.h"
+#include "samples/support/standard_streams.h"
 #include <bit>
 #include <chrono>
 #include <cmath>
@@ -31,10 +36,19 @@ ModelConfig chooseNetwork(const FitOptions& options) {
                                    : loadModelConfig(options.network);
 }
 
-void requireFiles(const FitOptions& options) {
-    for (const std::string& file :
-         {options.output, options.png, options.csv, options.chart, options.save, options.json})
-        if (!file.empty() && file != "-") requireWritable(file);
+void checkFiles(const FitOptions& options) {
+    requireEnding({"-o", options.output}, {".exr"});
+    requireEnding({"--png", options.png}, {".png"});
+    requireEnding({"--chart", options.chart}, {".svg", "-"});
+    std::vector<NamedFile> inputs{{"the picture", options.picture}, {"the network", options.network}};
+    for (const std::string& file : options.against) inputs.push_back({"a curve of --against", file});
+    checkOutputs({{"-o", options.output},
+                  {"--png", options.png},
+                  {"--csv", options.csv},
+                  {"--chart", options.chart},
+                  {"--save", options.save},
+                  {"--json", options.json}},
+                 inputs);
 }
 
 std::vector<LearningCurve> readCurves(const std::vector<std::string>& files) {
@@ -68,7 +82,7 @@ LearningCurve learn(ImageLearner& learner, const FitOptions& options) {
         ++step;
         const double fraction =
             options.seconds > 0 ? seconds / options.seconds : double(step) / options.steps;
-        isLast = fraction >= 1;
+        isLast = fraction >= 1 || interruptedBy();
         if (isLast || curve.points.empty() || step >= nextMeasurement(curve.points.back().step)) {
             curve.points.push_back({step, seconds, learner.trainer().counts().loss, learner.measure()});
             progress.note("loss", curve.points.back().loss);
@@ -83,7 +97,8 @@ LearningCurve learn(ImageLearner& learner, const FitOptions& options) {
 Result run(ImageLearner& learner, const Picture& picture, const FitOptions& options) {
     const auto start = Clock::now();
     learner.warmUp();
-    fmt::print(stderr, "kernels ready after {:.1f} s\n", secondsSince(start));
+    stopIfInterrupted();
+    logLine("kernels ready after {:.1f} s", secondsSince(start));
     Result result{learn(learner, options), learner.predict(), 0};
     result.curve.name =
         options.network.empty() ? "hash_grid" : std::filesystem::path(options.network).stem().string();
@@ -91,9 +106,8 @@ Result run(ImageLearner& learner, const Picture& picture, const FitOptions& opti
     for (size_t i = 0; i < result.picture.size(); ++i) error.add(result.picture[i], picture.colour(i));
     result.psnr = error.psnr();
     const CurvePoint& last = result.curve.points.back();
-    fmt::print(stderr,
-               "{:.2f} dB over all {} pixels after {} steps, {:.1f} s of learning, {:.2f} ms a step\n",
-               result.psnr, result.picture.size(), last.step, last.seconds, 1e3 * last.seconds / last.step);
+    logLine("{:.2f} dB over all {} pixels after {} steps, {:.1f} s of learning, {:.2f} ms a step",
+            result.psnr, result.picture.size(), last.step, last.seconds, 1e3 * last.seconds / last.step);
     return result;
 }
 
@@ -126,7 +140,7 @@ nlohmann::ordered_json numbers(const Result& result, const Picture& picture, Ima
 
 void writeText(const std::string& file, const std::string& text) {
     if (file == "-")
-        fmt::print("{}", text);
+        writeResult(text);
     else
         writeFileAtomically(file, std::span(reinterpret_cast<const uint8_t*>(text.data()), text.size()));
 }
@@ -168,16 +182,16 @@ void writeChart(const Result& result, const std::vector<LearningCurve>& earlier,
 
 void fitImage(const FitOptions& options) {
     const LearnerOptions learnerOptions{log2Batch(options.batch), options.seed};
-    requireFiles(options);
+    checkFiles(options);
     const ModelConfig config = chooseNetwork(options);
     const std::vector<LearningCurve> earlier = readCurves(options.against);
     const Picture picture = loadPicture(options.picture);
     Device device(options.device);
-    fmt::print(stderr, "picture {}: {} x {}; device {} ({})\n", options.picture, picture.width,
-               picture.height, device.description().name, device.description().driver);
+    logLine("picture {}: {} x {}; device {} ({})", options.picture, picture.width, picture.height,
+            device.description().name, device.description().driver);
     ImageLearner learner(device, picture, config, learnerOptions);
-    fmt::print(stderr, "network {}, {} parameters\n", describe(learner.trainer().network().config()),
-               learner.trainer().parameterCount());
+    logLine("network {}, {} parameters", describe(learner.trainer().network().config()),
+            learner.trainer().parameterCount());
 
     const Result result = run(learner, picture, options);
     writeLearned(result, picture, learner, device, options);
@@ -191,6 +205,7 @@ void fitImage(const FitOptions& options) {
         writeText(options.json, numbers(result, picture, learner, device, options).dump(2) + "\n");
     if (device.validationMessages() > 0)
         fail(ExitCode::Internal, "{} validation messages", device.validationMessages());
+    endIfInterrupted(result.curve.points.back().step, "steps");
 }
 
 } // namespace irradia

@@ -2,6 +2,9 @@
 #include "engine/error.h"
 #include "samples/fit_image/fit_image.h"
 #include "samples/fit_image/make_picture.h"
+#include "samples/support/interrupt.h"
+#include "samples/support/numbers.h"
+#include "samples/support/outputs.h"
 #include "samples/support/program.h"
 #include "samples/support/progress.h"
 
@@ -16,7 +19,7 @@ struct Request {
 
 void addOutputs(CLI::App& program, FitOptions& fit) {
     const auto add = [&](const char* name, std::string& file, const char* what) {
-        return program.add_option(name, file, what)->group("Output");
+        return addOutput(program, name, file, what)->group("Output");
     };
     add("-o,--output", fit.output, "The learned picture, EXR, linear");
     add("--png", fit.png, "The same as a screen shows it");
@@ -34,18 +37,18 @@ void addLearning(CLI::App& program, FitOptions& fit) {
         .add_option("--network", fit.network,
                     "Encoding, network, loss and optimizer as JSON; default: a hash grid")
         ->group("Learning");
-    CLI::Option* steps = program.add_option("--steps", fit.steps, "Steps to learn for")
-                             ->check(CLI::Range(1u, 100000000u))
+    CLI::Option* steps = addWhole(program, "--steps", fit.steps, "Steps to learn for", 1, 100000000)
                              ->group("Learning")
                              ->capture_default_str();
-    program.add_option("--time", fit.seconds, "Seconds to learn for, instead of a number of steps")
-        ->check(CLI::PositiveNumber)
+    addSeconds(program, "--time", fit.seconds, "To learn for, instead of a number of steps")
         ->excludes(steps)
         ->group("Learning");
-    program.add_option("--batch", fit.batch, "Pixels of a step, a power of two")
+    addWhole(program, "--batch", fit.batch, "Pixels of a step, a power of two", 256, 262144)
         ->group("Learning")
         ->capture_default_str();
-    program.add_option("--seed", fit.seed, "Of the random numbers")->group("Learning")->capture_default_str();
+    addWhole(program, "--seed", fit.seed, "Of the random numbers", 0, UINT32_MAX)
+        ->group("Learning")
+        ->capture_default_str();
 }
 
 void addOptions(CLI::App& program, Request& request) {
@@ -54,7 +57,7 @@ void addOptions(CLI::App& program, Request& request) {
     addOutputs(program, request.fit);
     addLearning(program, request.fit);
     CLI::Option* make =
-        program.add_option("--make-picture", request.makePicture, "Only paint a picture to learn, PNG")
+        addOutput(program, "--make-picture", request.makePicture, "Only paint a picture to learn, PNG")
             ->group("Test picture");
     program.add_option("--size", request.size, "Of that picture, WxH")
         ->needs(make)
@@ -68,12 +71,14 @@ void addOptions(CLI::App& program, Request& request) {
 
 void run(const Request& request) {
     if (!request.makePicture.empty()) {
+        requireEnding({"--make-picture", request.makePicture}, {".png"});
         requireWritable(request.makePicture);
         writePng(request.makePicture, makePicture(parseSize(request.size)));
         return;
     }
     if (request.fit.picture.empty() || request.fit.output.empty())
         fail(ExitCode::Usage, "a picture and -o OUT.exr are required, fit_image --help says more");
+    catchInterrupts();
     fitImage(request.fit);
 }
 

@@ -1,5 +1,6 @@
 #include "samples/fit_image/make_picture.h"
 
+#include "engine/image/display.h"
 #include "samples/fit_image/ornaments.h"
 #include <algorithm>
 #include <atomic>

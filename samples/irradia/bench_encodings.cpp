@@ -2,6 +2,10 @@
 #include "bench_tools.h"
 #include "commands.h"
 #include "nrc/encoding.h"
+#include "samples/support/interrupt.h"
+#include "samples/support/numbers.h"
+#include "samples/support/outputs.h"
+#include "samples/support/standard_streams.h"
 #include "shared/network.h"
 #include <algorithm>
 #include <chrono>
@@ -136,21 +140,23 @@ nlohmann::ordered_json toJson(std::deque<EncodingRun>& runs, const BenchEncoding
 }
 
 void printTable(std::deque<EncodingRun>& runs, const BenchEncodingsOptions& options, const Device& device) {
-    fmt::print("{}: {} rows of {} inputs, {} precision\n", device.description().name, options.rows, kInputs,
-               options.precision);
-    fmt::print("{:<30}{:>7}{:>9}{:>9}{:>7}   passes, ms\n", "position, one-blob", "values", "ms", "ns/row",
-               "time");
+    printResult("{}: {} rows of {} inputs, {} precision\n", device.description().name, options.rows, kInputs,
+                options.precision);
+    printResult("{:<30}{:>7}{:>9}{:>9}{:>7}   passes, ms\n", "position, one-blob", "values", "ms", "ns/row",
+                "time");
     for (EncodingRun& run : runs) {
         const double seconds = median(run.seconds);
-        fmt::print("{:<30}{:>7}{:>9.3f}{:>9.1f}{:>6.2f}x  ", run.name(), run.width(), 1e3 * seconds,
-                   1e9 * seconds / options.rows, median(run.ratios));
+        printResult("{:<30}{:>7}{:>9.3f}{:>9.1f}{:>6.2f}x  ", run.name(), run.width(), 1e3 * seconds,
+                    1e9 * seconds / options.rows, median(run.ratios));
         for (const Profiler::Row& row : run.profiler().rows())
-            fmt::print(" {} {:.3f}", row.name.substr(row.name.find('_') + 1), row.p50);
-        fmt::print("\n");
+            printResult(" {} {:.3f}", row.name.substr(row.name.find('_') + 1), row.p50);
+        printResult("\n");
     }
 }
 
 void benchEncodings(const BenchEncodingsOptions& options) {
+    checkOutputs({{"--json", options.json}}, {});
+    catchInterrupts();
     Device device(options.device);
     const uint32_t capacity = (options.rows + gpu::kRowPadding - 1) / gpu::kRowPadding * gpu::kRowPadding;
     const Buffer inputs = uniformInputs(device, capacity);
@@ -161,13 +167,16 @@ void benchEncodings(const BenchEncodingsOptions& options) {
         runs.emplace_back(device, std::move(composite), precision, inputs, counters, capacity);
 
     for (EncodingRun& run : runs) run.run(); // compiles
-    for (uint32_t round = 0; round < options.rounds; ++round)
+    stopIfInterrupted();
+    uint32_t rounds = 0;
+    for (; rounds < options.rounds && !interruptedBy(); ++rounds)
         for (EncodingRun& run : runs) {
             run.seconds.push_back(median(repeated([&] { return run.run(); })));
             run.ratios.push_back(run.seconds.back() / runs.front().seconds.back());
         }
     if (options.json != "-") printTable(runs, options, device);
     if (!options.json.empty()) writeJson(options.json, toJson(runs, options, device));
+    endIfInterrupted(rounds, "rounds");
 }
 
 } // namespace
@@ -176,16 +185,13 @@ void addBenchEncodings(CLI::App& bench) {
     auto options = std::make_shared<BenchEncodingsOptions>();
     CLI::App* command =
         bench.add_subcommand("encodings", "The radiance cache's inputs with one encoding or another");
-    command->add_option("--rows", options->rows, "Rows encoded")
-        ->check(CLI::Range(1u, 1u << 20))
-        ->capture_default_str();
-    command->add_option("--rounds", options->rounds, "Rounds, each timing all; medians count")
-        ->check(CLI::Range(1u, 10000u))
+    addWhole(*command, "--rows", options->rows, "Rows encoded", 1, 1u << 20)->capture_default_str();
+    addWhole(*command, "--rounds", options->rounds, "Rounds, each timing all; medians count", 1, 10000)
         ->capture_default_str();
     command->add_option("--precision", options->precision, "Of the encoded values")
         ->check(CLI::IsMember({"float", "half"}))
         ->capture_default_str();
-    command->add_option("--json", options->json, "File for the numbers, - for stdout");
+    addOutput(*command, "--json", options->json, "File for the numbers, - for stdout");
     command->add_option("--device", options->device.select, "Index, name, cpu or gpu")->group("Device");
     command->callback([options] { benchEncodings(*options); });
 }

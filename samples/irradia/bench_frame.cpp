@@ -1,8 +1,10 @@
 // irradia bench frame: the time of each pass of a frame, median and p90.
+#include "bench_tools.h"
 #include "commands.h"
 #include "engine/error.h"
 #include "frame_stats.h"
-#include <iostream>
+#include "samples/support/interrupt.h"
+#include "samples/support/numbers.h"
 
 namespace irradia {
 
@@ -15,19 +17,19 @@ struct BenchFrameOptions {
 };
 
 void benchFrame(const BenchFrameOptions& options) {
+    checkOutputs({{"--json", options.json}}, inputFiles(options.request));
+    catchInterrupts();
     RenderSession session(options.request);
+    requireApart({{"--json", options.json}}, session.inputs());
     // The first frames compile the kernels.
     for (uint32_t i = 0; i < 2; ++i) session.renderFrame(i);
     session.profiler().reset();
-    for (uint32_t i = 0; i < options.frames; ++i) session.renderFrame(2 + i);
+    stopIfInterrupted();
+    uint32_t frames = 0;
+    while (frames < options.frames && !interruptedBy()) session.renderFrame(2 + frames++);
     printFrameStats(session);
-    if (options.json.empty()) return;
-    const std::string text = frameStats(session).dump(2) + "\n";
-    if (options.json == "-")
-        std::cout << text;
-    else
-        writeFileAtomically(options.json,
-                            std::span(reinterpret_cast<const uint8_t*>(text.data()), text.size()));
+    if (!options.json.empty()) writeJson(options.json, frameStats(session));
+    endIfInterrupted(frames, "frames");
 }
 
 } // namespace
@@ -37,10 +39,9 @@ void addBenchFrame(CLI::App& bench) {
     options->request.size = "256x256";
     CLI::App* command = bench.add_subcommand("frame", "Time of every pass of a frame, median and p90");
     addRequestOptions(*command, options->request);
-    command->add_option("--frames", options->frames, "Frames to time, after two that are not")
-        ->check(CLI::Range(1u, 100000u))
+    addWhole(*command, "--frames", options->frames, "Frames to time, after two that are not", 1, 100000)
         ->capture_default_str();
-    command->add_option("--json", options->json, "File for the numbers, - for stdout");
+    addOutput(*command, "--json", options->json, "File for the numbers, - for stdout");
     command->callback([options] { benchFrame(*options); });
 }
 

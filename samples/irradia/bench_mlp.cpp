@@ -4,6 +4,9 @@
 #include "bench_tools.h"
 #include "commands.h"
 #include "engine/error.h"
+#include "samples/support/interrupt.h"
+#include "samples/support/numbers.h"
+#include "samples/support/outputs.h"
 #include "samples/yardsticks/cpu_peak.h"
 #include <charconv>
 #include <nlohmann/json.hpp>
@@ -102,6 +105,8 @@ void benchMlp(BenchMlpOptions options) {
         options.device.records = options.records == "texel" ? RecordAccess::Texel : RecordAccess::Storage;
     if (options.isQuick) options.rounds = std::min(options.rounds, kQuickRounds);
     const std::vector<MlpGroup> groups = groupsOf(options);
+    checkOutputs({{"--json", options.json}}, {});
+    catchInterrupts();
     if (options.compileTimes) return compileTimes(options, groups);
     Device device(options.device);
     const uint32_t threads = cpuThreads(device);
@@ -111,22 +116,22 @@ void benchMlp(BenchMlpOptions options) {
     if (withTable) printHeading(machine);
     std::vector<MlpResult> results;
     for (const MlpGroup& group : groups) {
+        if (!results.empty() && interruptedBy()) break;
         const std::vector<MlpResult> some = runRounds(device, group, options.rounds, threads);
         if (withTable) printResults(some, options.withPasses);
         results.insert(results.end(), some.begin(), some.end());
     }
     if (results.empty()) fail(ExitCode::BadData, "no network of those asked for fits {}", machine.device);
     if (!options.json.empty()) writeJson(options.json, toJson(results, machine));
+    endIfInterrupted(results.size(), "networks");
 }
 
 void addCaseOptions(CLI::App& command, BenchMlpOptions& options) {
     command.add_option("--shape", options.shapes, "Width x hidden layers, WxL; repeat for more")
         ->group("Networks")
         ->default_str("64x5 64x2 32x2 16x2 128x2");
-    command
-        .add_option("--inputs", options.inputs,
-                    "Encoded inputs, a multiple of 16; 64, for a width of 32 as many")
-        ->check(CLI::Range(16u, 256u))
+    addWhole(command, "--inputs", options.inputs,
+             "Encoded inputs, a multiple of 16; 64, for a width of 32 as many", 16, 256)
         ->group("Networks");
     const auto choice = [&](const char* name, std::string& value, const char* meaning,
                             const std::vector<std::string>& names) {
@@ -138,25 +143,20 @@ void addCaseOptions(CLI::App& command, BenchMlpOptions& options) {
     choice("--form", options.form, "Of the kernels", {"both", "subgroup", "workgroup"});
     choice("--precision", options.precision, "Of weights and activations", {"both", "float", "half"});
     choice("--mode", options.mode, "What is timed", {"both", "inference", "training"});
-    command
-        .add_option("--rows-per-lane", options.rowsPerLane,
-                    "Of evaluations in the subgroup form, 1 to 4; the network's choice if none")
-        ->check(CLI::Range(1u, 4u))
+    addWhole(command, "--rows-per-lane", options.rowsPerLane,
+             "Of evaluations in the subgroup form; the network's choice if none", 1, 4)
         ->group("Networks");
 }
 
 void addRoundOptions(CLI::App& command, BenchMlpOptions& options) {
-    const CLI::Range rows(1u, 1u << 20);
-    command.add_option("--rows", options.rows, "Rows evaluated")
-        ->check(rows)
+    constexpr uint32_t kMostRows = 1u << 20;
+    addWhole(command, "--rows", options.rows, "Rows evaluated", 1, kMostRows)
         ->group("Rounds")
         ->capture_default_str();
-    command.add_option("--train-rows", options.trainRows, "Rows of a training step")
-        ->check(rows)
+    addWhole(command, "--train-rows", options.trainRows, "Rows of a training step", 1, kMostRows)
         ->group("Rounds")
         ->capture_default_str();
-    command.add_option("--rounds", options.rounds, "Rounds, each timing all; medians count")
-        ->check(CLI::Range(1u, 10000u))
+    addWhole(command, "--rounds", options.rounds, "Rounds, each timing all; medians count", 1, 10000)
         ->group("Rounds")
         ->capture_default_str();
     command.add_flag("--quick", options.isQuick, fmt::format("64x5 alone and {} rounds", kQuickRounds))
@@ -178,9 +178,9 @@ void addBenchMlp(CLI::App& bench) {
     addCaseOptions(*command, *options);
     addRoundOptions(*command, *options);
     command->add_flag("--passes", options->withPasses, "Also the time of each pass")->group("Output");
-    command->add_option("--json", options->json, "File for the numbers, - for stdout")->group("Output");
+    addOutput(*command, "--json", options->json, "File for the numbers, - for stdout")->group("Output");
     command->add_option("--device", options->device.select, "Index, name, cpu or gpu")->group("Device");
-    command->add_option("--subgroup", options->device.subgroupSize, "Subgroup size to pin")->group("Device");
+    addSubgroup(*command, options->device.subgroupSize)->group("Device");
     command->add_option("--records", options->records, "Form of the kernels' records: auto, texel or storage")
         ->check(CLI::IsMember({"auto", "texel", "storage"}))
         ->group("Device");

@@ -1,6 +1,7 @@
 #include "bench_mlp_compile.h"
 #include "bench_mlp_rounds.h"
 #include "engine/error.h"
+#include "samples/support/interrupt.h"
 #include "shared/network.h"
 #include <chrono>
 #include <cstdlib>
@@ -55,12 +56,14 @@ std::vector<CompileTime> measureCompileTimes(const DeviceOptions& options,
     for (const bool isCached : {false, true}) {
         Device device(options);
         size_t next = 0;
-        for (const MlpCase& what : cases)
+        for (const MlpCase& what : cases) {
+            stopIfInterrupted();
             for (const FirstRun& run : firstRuns(device, what))
                 if (isCached)
                     times.at(next++).cached = run.seconds;
                 else
                     times.push_back({what, run.kernel, run.seconds});
+        }
     }
     return times;
 }

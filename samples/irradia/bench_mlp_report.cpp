@@ -1,6 +1,7 @@
 #include "bench_mlp_report.h"
 #include "bench_mlp_traffic.h"
 #include "bench_tools.h"
+#include "samples/support/standard_streams.h"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -63,7 +64,7 @@ Json toJson(const MlpResult& result) {
 
 void printPasses(const MlpResult& result) {
     for (const Profiler::Row& row : result.times)
-        fmt::print("    {:<36}{:>9.3f} ms  {:>5.1f} %\n", row.name, row.p50, 0.1 * row.p50 / result.seconds);
+        printResult("    {:<36}{:>9.3f} ms  {:>5.1f} %\n", row.name, row.p50, 0.1 * row.p50 / result.seconds);
 }
 
 double peakOf(const std::vector<MlpResult>& results) {
@@ -75,19 +76,19 @@ double peakOf(const std::vector<MlpResult>& results) {
 } // namespace
 
 void printHeading(const MlpMachine& machine) {
-    fmt::print("{}, subgroups of {}; yardsticks on {} threads{}\n", machine.device, machine.subgroup,
-               machine.threads,
-               machine.copyGbps > 0 ? fmt::format("; copies {:.1f} GB/s", machine.copyGbps) : "");
-    fmt::print("Ratios: medians of the rounds' ratios of speed, by the device's clock over the passes.\n\n");
-    fmt::print("{:<7}{:<10}{:<10}{:<6}{:>9}{:>9}{:>9}{:>9}{:>8}{:>10}{:>11}{:>9}{:>10}{:>8}\n", "shape",
-               "mode", "form", "type", "wall ms", "passes", "Mrows/s", "GFLOP/s", "of peak", "textbook",
-               "oneDNN", "B/row", "unfused", "GB/s");
+    printResult("{}, subgroups of {}; yardsticks on {} threads{}\n", machine.device, machine.subgroup,
+                machine.threads,
+                machine.copyGbps > 0 ? fmt::format("; copies {:.1f} GB/s", machine.copyGbps) : "");
+    printResult("Ratios: medians of the rounds' ratios of speed, by the device's clock over the passes.\n\n");
+    printResult("{:<7}{:<10}{:<10}{:<6}{:>9}{:>9}{:>9}{:>9}{:>8}{:>10}{:>11}{:>9}{:>10}{:>8}\n", "shape",
+                "mode", "form", "type", "wall ms", "passes", "Mrows/s", "GFLOP/s", "of peak", "textbook",
+                "oneDNN", "B/row", "unfused", "GB/s");
 }
 
 void printResults(const std::vector<MlpResult>& results, bool withPasses) {
     for (const MlpResult& result : results) {
         const RowTraffic traffic = trafficOf(result.what, result.rows);
-        fmt::print(
+        printResult(
             "{:<7}{:<10}{:<10}{:<6}{:>9.3f}{:>9.3f}{:>9.3f}{:>9.1f}{:>7.1f}%{:>9.1f}x{:>11}{:>9.0f}{:>10.0f}"
             "{:>8.2f}\n",
             nameOf(result.what.shape), modeOf(result.what), nameOf(result.what.form),
@@ -101,32 +102,32 @@ void printResults(const std::vector<MlpResult>& results, bool withPasses) {
     const MlpResult& any = results.front();
     double difference = 0;
     for (const MlpResult& result : results) difference = std::max(difference, result.difference);
-    fmt::print("    {} rows; peak {:.1f} GFLOP/s, textbook {:.2f}", any.rows, any.peakGflops,
-               any.textbookGflops);
-    if (any.onednnRatio) fmt::print(", oneDNN {:.1f}", any.onednnGflops);
+    printResult("    {} rows; peak {:.1f} GFLOP/s, textbook {:.2f}", any.rows, any.peakGflops,
+                any.textbookGflops);
+    if (any.onednnRatio) printResult(", oneDNN {:.1f}", any.onednnGflops);
     if (!any.what.isTraining)
-        fmt::print("; results differ from the textbook's by {:.1e} at most", difference);
-    fmt::print("\n");
+        printResult("; results differ from the textbook's by {:.1e} at most", difference);
+    printResult("\n");
     std::fflush(stdout);
 }
 
 void printCompileTimes(const std::vector<CompileTime>& times) {
     constexpr double kWorthALine = 0.05; // seconds
-    fmt::print("{:<7}{:<10}{:<10}{:<6}{:<20}{:>9}{:>9}\n", "shape", "mode", "form", "type",
-               "first execution of", "cold s", "cached s");
+    printResult("{:<7}{:<10}{:<10}{:<6}{:<20}{:>9}{:>9}\n", "shape", "mode", "form", "type",
+                "first execution of", "cold s", "cached s");
     const CompileTime *cold = nullptr, *cached = nullptr; // the slowest
     for (const CompileTime& time : times) {
         if (std::max(time.cold, time.cached) > kWorthALine)
-            fmt::print("{:<7}{:<10}{:<10}{:<6}{:<20}{:>9.3f}{:>9.3f}\n", nameOf(time.what.shape),
-                       modeOf(time.what), nameOf(time.what.form), nameOf(time.what.precision), time.kernel,
-                       time.cold, time.cached);
+            printResult("{:<7}{:<10}{:<10}{:<6}{:<20}{:>9.3f}{:>9.3f}\n", nameOf(time.what.shape),
+                        modeOf(time.what), nameOf(time.what.form), nameOf(time.what.precision), time.kernel,
+                        time.cold, time.cached);
         if (time.kernel == kPipelines) continue;
         if (!cold || time.cold > cold->cold) cold = &time;
         if (!cached || time.cached > cached->cached) cached = &time;
     }
     if (!cold) return;
-    fmt::print("Slowest kernel: {} in {:.3f} s cold, {} in {:.3f} s cached. Others take below {} s.\n",
-               cold->kernel, cold->cold, cached->kernel, cached->cached, kWorthALine);
+    printResult("Slowest kernel: {} in {:.3f} s cold, {} in {:.3f} s cached. Others take below {} s.\n",
+                cold->kernel, cold->cold, cached->kernel, cached->cached, kWorthALine);
 }
 
 Json toJson(const std::vector<MlpResult>& results, const MlpMachine& machine) {

@@ -1,6 +1,8 @@
 #include "bench_mlp_rounds.h"
 #include "bench_tools.h"
 #include "engine/error.h"
+#include "engine/log.h"
+#include "samples/support/interrupt.h"
 #include "samples/yardsticks/cpu_peak.h"
 #include "samples/yardsticks/device_peak.h"
 #include "samples/yardsticks/mlp_yardstick.h"
@@ -36,8 +38,8 @@ std::vector<Contender> startContenders(Device& device, const MlpGroup& group, co
                 all.push_back({what, startCase(device, what, problem)});
             } catch (const Error& error) {
                 if (error.code() != ExitCode::BadData) throw;
-                fmt::print(stderr, "{} {} {}: left out: {}\n", nameOf(group.shape), nameOf(form),
-                           nameOf(precision), error.what());
+                logLine("{} {} {}: left out: {}", nameOf(group.shape), nameOf(form), nameOf(precision),
+                        error.what());
             }
         }
     return all;
@@ -127,7 +129,8 @@ std::vector<MlpResult> runRounds(Device& device, const MlpGroup& group, uint32_t
     }
     if (group.isTraining) yardsticks.textbook->train();
 
-    for (uint32_t round = 0; round < rounds; ++round) {
+    stopIfInterrupted();
+    for (uint32_t round = 0; round < rounds && (round == 0 || !interruptedBy()); ++round) {
         measureYardsticks(device, yardsticks, group, threads);
         for (Contender& contender : contenders) {
             measure(contender);

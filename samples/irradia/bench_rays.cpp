@@ -4,11 +4,16 @@
 #include "commands.h"
 #include "engine/error.h"
 #include "engine/graph/frame_graph.h"
+#include "engine/log.h"
 #include "engine/scene/bvh.h"
 #include "engine/scene/load_scene.h"
 #include "kernels/path.h"
 #include "render_session.h"
+#include "samples/support/interrupt.h"
+#include "samples/support/numbers.h"
+#include "samples/support/outputs.h"
 #include "samples/support/program.h"
+#include "samples/support/standard_streams.h"
 #include "shared/queue.h"
 #include "shared/trace.h"
 #include <algorithm>
@@ -141,9 +146,9 @@ std::string sceneFile(const BenchRaysOptions& options) {
 
 void report(const RayKind& kind, size_t wrong) {
     const double millions = static_cast<double>(kind.rays.size()) * 1e-6;
-    fmt::print("{:8} {:8} rays  {:7.3f} Mrays/s  embree {:7.3f}  ratio {:.3f}  mismatches {}\n", kind.name,
-               kind.rays.size(), millions / median(kind.seconds), millions / median(kind.embreeSeconds),
-               median(kind.ratios), wrong);
+    printResult("{:8} {:8} rays  {:7.3f} Mrays/s  embree {:7.3f}  ratio {:.3f}  mismatches {}\n", kind.name,
+                kind.rays.size(), millions / median(kind.seconds), millions / median(kind.embreeSeconds),
+                median(kind.ratios), wrong);
 }
 
 nlohmann::ordered_json jsonOf(const std::vector<RayKind*>& kinds, const Device& device, size_t triangles) {
@@ -161,14 +166,16 @@ void benchRays(BenchRaysOptions options) {
     const glm::uvec2 size = parseSize(options.size);
     if (options.records != "auto")
         options.device.records = options.records == "texel" ? RecordAccess::Texel : RecordAccess::Storage;
+    checkOutputs({{"--json", options.json}}, {{"the scene", options.scene}, {"the camera", options.camera}});
+    catchInterrupts();
     const Scene scene = loadScene(sceneFile(options));
     const auto start = std::chrono::steady_clock::now();
     const Bvh bvh = buildBvh(scene);
     const double built = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     Device device(options.device);
     const EmbreeScene embree(scene, cpuThreads(device));
-    fmt::print(stderr, "{}: {} triangles, built in {:.2f} s; {} against Embree on {} threads\n", scene.name,
-               scene.triangles.size(), built, device.description().name, embree.threads());
+    logLine("{}: {} triangles, built in {:.2f} s; {} against Embree on {} threads", scene.name,
+            scene.triangles.size(), built, device.description().name, embree.threads());
 
     const BenchRaySets sets = makeRaySets(scene, chooseCamera(scene, options.camera).camera, size, embree);
     if (sets.bounce.empty()) fail(ExitCode::BadData, "{}: the camera sees nothing", scene.name);
@@ -182,7 +189,9 @@ void benchRays(BenchRaysOptions options) {
 
     // The first dispatch compiles the kernel and is not counted.
     for (RayKind* kind : kinds) kind->device.trace();
-    for (uint32_t round = 0; round < options.rounds; ++round)
+    stopIfInterrupted();
+    uint32_t rounds = 0;
+    for (; rounds < options.rounds && !interruptedBy(); ++rounds)
         for (RayKind* kind : kinds) {
             kind->embreeSeconds.push_back(embreeTime(*kind, embree));
             kind->seconds.push_back(kind->device.trace());
@@ -191,6 +200,7 @@ void benchRays(BenchRaysOptions options) {
     if (options.json != "-")
         for (const RayKind* kind : kinds) report(*kind, mismatches(device, *kind, embree));
     if (!options.json.empty()) writeJson(options.json, jsonOf(kinds, device, scene.triangles.size()));
+    endIfInterrupted(rounds, "rounds");
 }
 
 } // namespace
@@ -201,12 +211,12 @@ void addBenchRays(CLI::App& bench) {
     command->add_option("scene", options->scene, "glTF scene; the project's own interior if none");
     command->add_option("--camera", options->camera, "Camera by name, index or .json file");
     command->add_option("--size", options->size, "Primary rays, WxH")->capture_default_str();
-    command->add_option("--rounds", options->rounds, "Rounds, each tracing all rays on both; medians count")
-        ->check(CLI::Range(1u, 10000u))
+    addWhole(*command, "--rounds", options->rounds, "Rounds, each tracing all rays on both; medians count", 1,
+             10000)
         ->capture_default_str();
-    command->add_option("--json", options->json, "File for the numbers, - for stdout");
+    addOutput(*command, "--json", options->json, "File for the numbers, - for stdout");
     command->add_option("--device", options->device.select, "Index, name, cpu or gpu")->group("Device");
-    command->add_option("--subgroup", options->device.subgroupSize, "Subgroup size to pin")->group("Device");
+    addSubgroup(*command, options->device.subgroupSize)->group("Device");
     command->add_option("--records", options->records, "Form of the kernels: auto, texel or storage")
         ->check(CLI::IsMember({"auto", "texel", "storage"}))
         ->group("Device");

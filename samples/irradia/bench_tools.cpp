@@ -1,8 +1,8 @@
 #include "bench_tools.h"
 #include "engine/image/image.h"
+#include "samples/support/standard_streams.h"
 #include <algorithm>
 #include <cstdlib>
-#include <iostream>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -24,7 +24,7 @@ uint32_t cpuThreads(const Device& device) {
 void writeJson(const std::string& file, const nlohmann::ordered_json& json) {
     const std::string text = json.dump(2) + "\n";
     if (file == "-")
-        std::cout << text << std::flush;
+        writeResult(text);
     else
         writeFileAtomically(file, std::span(reinterpret_cast<const uint8_t*>(text.data()), text.size()));
 }

@@ -14,6 +14,5 @@ void addBenchFrame(CLI::App& bench);
 void addBenchRays(CLI::App& bench);
 void addBenchMlp(CLI::App& bench);
 void addBenchEncodings(CLI::App& bench);
-void addLaterCommands(CLI::App& program); // those this version names but does not have
 
 } // namespace irradia

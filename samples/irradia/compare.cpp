@@ -3,6 +3,8 @@
 #include "engine/error.h"
 #include "engine/image/image.h"
 #include "engine/image/metrics.h"
+#include "samples/support/numbers.h"
+#include "samples/support/standard_streams.h"
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -52,10 +54,9 @@ Limit parseLimit(const std::string& text) {
     const size_t equals = text.find('=');
     if (equals == std::string::npos) fail(ExitCode::Usage, "--fail-above {}: not METRIC=X", text);
     const Metric& metric = findMetric(text.substr(0, equals));
-    double value = 0;
-    if (!CLI::detail::lexical_cast(text.substr(equals + 1), value) || !std::isfinite(value))
-        fail(ExitCode::Usage, "--fail-above {}: {} is not a number", text, text.substr(equals + 1));
-    return {&metric, value};
+    const auto value = toNumber(text.substr(equals + 1));
+    if (!value) fail(ExitCode::Usage, "--fail-above {}: {} is not a number", text, text.substr(equals + 1));
+    return {&metric, *value};
 }
 
 LayeredImage readPicture(const std::string& file) {
@@ -78,10 +79,10 @@ void printMetrics(const ImageMetrics& metrics, bool asJson) {
         if (asJson)
             json[metric.name] = value; // null where it is not finite
         else
-            fmt::print("{:<10}  {:>12.6g}  {}\n", metric.name, value, metric.meaning);
+            printResult("{:<10}  {:>12.6g}  {}\n", metric.name, value, metric.meaning);
     }
     json["nonfinite"] = metrics.nonFinite; // a whole number
-    if (asJson) fmt::print("{}\n", json.dump());
+    if (asJson) printResult("{}\n", json.dump());
 }
 
 void compare(const CompareOptions& options) {

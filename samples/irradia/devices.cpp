@@ -2,6 +2,7 @@
 #include "commands.h"
 #include "engine/error.h"
 #include "engine/gpu/device.h"
+#include "samples/support/standard_streams.h"
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
@@ -32,8 +33,8 @@ void printTable(const std::vector<Row>& rows) {
     for (const Row& row : rows)
         for (size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], row[c].size());
     for (const Row& row : rows) {
-        for (size_t c = 0; c + 1 < row.size(); ++c) fmt::print("{:<{}}  ", row[c], widths[c]);
-        fmt::print("{}\n", row.back());
+        for (size_t c = 0; c + 1 < row.size(); ++c) printResult("{:<{}}  ", row[c], widths[c]);
+        printResult("{}\n", row.back());
     }
 }
 
@@ -54,7 +55,7 @@ void printDevices(bool asJson) {
     if (asJson) {
         auto list = nlohmann::ordered_json::array();
         for (const DeviceDescription& device : devices) list.push_back(toJson(device));
-        fmt::print("{}\n", nlohmann::ordered_json{{"devices", list}}.dump(2));
+        printResult("{}\n", nlohmann::ordered_json{{"devices", list}}.dump(2));
     } else if (!devices.empty()) {
         std::vector<Row> rows{{"#", "name", "type", "driver", "API", "subgroup", "memory", "state"}};
         for (const DeviceDescription& device : devices) rows.push_back(toRow(device));

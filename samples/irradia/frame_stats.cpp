@@ -1,5 +1,6 @@
 #include "frame_stats.h"
 
+#include "engine/log.h"
 #include <fmt/format.h>
 
 namespace irradia {
@@ -42,19 +43,18 @@ nlohmann::ordered_json frameStats(RenderSession& session) {
 void printFrameStats(RenderSession& session) {
     const nlohmann::ordered_json stats = frameStats(session);
     const double total = stats["milliseconds"]["total"];
-    fmt::print(stderr, "{:<24}{:>10}{:>10}{:>8}\n", "pass", "p50 ms", "p90 ms", "share");
+    logLine("{:<24}{:>10}{:>10}{:>8}", "pass", "p50 ms", "p90 ms", "share");
     for (const auto& row : stats["passes"])
-        fmt::print(stderr, "{:<24}{:>10.2f}{:>10.2f}{:>7.1f}%\n", row["name"].get<std::string>(),
-                   row["p50"].get<double>(), row["p90"].get<double>(),
-                   100.0 * row["p50"].get<double>() / total);
-    fmt::print(stderr, "{:<24}{:>10.2f}{:>10.2f}\n", "total (wall clock)", total,
-               stats["milliseconds"]["total_p90"].get<double>());
+        logLine("{:<24}{:>10.2f}{:>10.2f}{:>7.1f}%", row["name"].get<std::string>(), row["p50"].get<double>(),
+                row["p90"].get<double>(), 100.0 * row["p50"].get<double>() / total);
+    logLine("{:<24}{:>10.2f}{:>10.2f}", "total (wall clock)", total,
+            stats["milliseconds"]["total_p90"].get<double>());
     const auto& columns = stats["milliseconds"];
-    fmt::print(stderr, "trace & shade {:.2f}, query {:.2f}, training {:.2f}, other {:.2f} ms\n",
-               columns["trace_shade"].get<double>(), columns["query"].get<double>(),
-               columns["train"].get<double>(), columns["other"].get<double>());
-    fmt::print(stderr, "{:.3f} M paths/s, {:.2f} M rays/s\n", stats["paths_per_second"].get<double>() * 1e-6,
-               stats["rays"].get<double>() / total * 1e-3);
+    logLine("trace & shade {:.2f}, query {:.2f}, training {:.2f}, other {:.2f} ms",
+            columns["trace_shade"].get<double>(), columns["query"].get<double>(),
+            columns["train"].get<double>(), columns["other"].get<double>());
+    logLine("{:.3f} M paths/s, {:.2f} M rays/s", stats["paths_per_second"].get<double>() * 1e-6,
+            stats["rays"].get<double>() / total * 1e-3);
 }
 
 } // namespace irradia

@@ -13,7 +13,6 @@ void addCommands(CLI::App& program) {
     addCompare(program);
     addDevices(program);
     addBench(program);
-    addLaterCommands(program);
 }
 
 // CLI11 would call an unknown subcommand a missing one.

@@ -2,7 +2,10 @@
 
 #include "engine/error.h"
 #include "engine/image/metrics.h"
+#include "engine/log.h"
 #include "engine/scene/area_table.h"
+#include "samples/support/interrupt.h"
+#include "samples/support/numbers.h"
 #include "samples/support/program.h"
 #include <chrono>
 #include <cstdio>
@@ -21,11 +24,7 @@ RecordAccess parseRecords(const std::string& text) {
 void requireKnownMethod(const std::string& method) {
     for (const char* known : {"pt", "nrc", "cache-view"})
         if (method == known) return;
-    for (const char* later : {"nr-lhs", "nr-rhs"})
-        if (method == later)
-            fail(ExitCode::Usage, "--method {} comes in a later version; this one has pt, nrc and cache-view",
-                 method);
-    fail(ExitCode::Usage, "--method {} is unknown; this version has pt, nrc and cache-view", method);
+    fail(ExitCode::Usage, "--method {} is unknown; there are pt, nrc and cache-view", method);
 }
 
 NrcConfig nrcConfig(const RenderRequest& request) {
@@ -50,14 +49,14 @@ std::vector<glm::vec3> loadReference(const View& view, const std::string& file, 
 }
 
 void reportScene(const Scene& scene, const std::vector<std::string>& packingWarnings) {
-    fmt::print(stderr, "scene {}: {} triangles, {} materials, {} pictures\n", scene.name,
-               scene.triangles.size(), scene.materials.size(), scene.images.size());
+    logLine("scene {}: {} triangles, {} materials, {} pictures", scene.name, scene.triangles.size(),
+            scene.materials.size(), scene.images.size());
     const SceneNotes& notes = scene.notes;
     if (notes.nonFiniteTriangles + notes.degenerateTriangles > 0)
-        fmt::print(stderr, "warning: dropped {} degenerate and {} non-finite triangles\n",
-                   notes.degenerateTriangles, notes.nonFiniteTriangles);
-    for (const std::string& warning : notes.warnings) fmt::print(stderr, "warning: {}\n", warning);
-    for (const std::string& warning : packingWarnings) fmt::print(stderr, "warning: {}\n", warning);
+        logLine("warning: dropped {} degenerate and {} non-finite triangles", notes.degenerateTriangles,
+                notes.nonFiniteTriangles);
+    for (const std::string& warning : notes.warnings) logLine("warning: {}", warning);
+    for (const std::string& warning : packingWarnings) logLine("warning: {}", warning);
 }
 
 } // namespace
@@ -85,27 +84,34 @@ void addRequestOptions(CLI::App& command, RenderRequest& request) {
         ->group("Method");
     command.add_option("--network", request.network, "Model of the cache, a .json file")->group("Method");
     command.add_option("--size", request.size, "Picture, WxH")->group("Method")->capture_default_str();
-    command.add_option("--spp", request.samplesPerFrame, "Samples of a pixel per frame")
-        ->check(CLI::Range(1u, 65536u))
+    addWhole(command, "--spp", request.samplesPerFrame, "Samples of a pixel per frame", 1, 65536)
         ->group("Method")
         ->capture_default_str();
-    command
-        .add_option(
-            "--max-bounces", request.maxBounces,
-            "A path has at most this + 2 edges, light connection included; 0 = emission and direct light")
-        ->check(CLI::Range(0u, 1024u))
+    addWhole(command, "--max-bounces", request.maxBounces,
+             "A path has at most this + 2 edges, light connection included; 0 = emission and direct light", 0,
+             1024)
         ->group("Method")
         ->capture_default_str();
-    command.add_option("--seed", request.seed, "Of the random numbers")
+    addWhole(command, "--seed", request.seed, "Of the random numbers", 0, UINT32_MAX)
         ->group("Method")
         ->capture_default_str();
     command.add_option("--device", request.device.select, "Index, name, cpu or gpu")->group("Device");
     command.add_flag("--validation", request.device.validation, "Vulkan's validation layers")
         ->group("Device");
-    command.add_option("--subgroup", request.device.subgroupSize, "Subgroup size to pin")->group("Device");
+    addSubgroup(command, request.device.subgroupSize)->group("Device");
     command.add_option("--records", request.records, "Form of the kernels: auto, texel or storage")
         ->check(CLI::IsMember({"auto", "texel", "storage"}))
         ->group("Device");
+}
+
+std::vector<NamedFile> inputFiles(const RenderRequest& request) {
+    return {{"the scene", request.scene},
+            {"the camera", request.camera},
+            {"the environment", request.environment},
+            {"the preset", request.preset},
+            {"the network", request.network},
+            {"the list of changes", request.changes},
+            {"the reference", request.reference}};
 }
 
 RenderSession::RenderSession(const RenderRequest& request)
@@ -118,21 +124,33 @@ RenderSession::RenderSession(const RenderRequest& request)
     scene_ = loadScene(request.scene);
     const CameraFile chosen = chooseCamera(scene_, request.camera);
     camera_ = chosen.camera;
-    const std::string& environment = request.environment.empty() ? chosen.environment : request.environment;
-    if (!environment.empty()) scene_.environment = loadEnvironment(environment);
+    environment_ = request.environment.empty() ? chosen.environment : request.environment;
+    if (!environment_.empty()) scene_.environment = loadEnvironment(environment_);
 
     if (!request.changes.empty()) changes_ = ScriptedChanges(request.changes, scene_);
+    if (request.endFrame) changes_.requireBefore(*request.endFrame);
     const NrcOptions options = rendererOptions();
     SceneRecords records = packScene(scene_, changes_.states(scene_));
     if (options.config.uniformShare > 0.0f) packAreaTable(records);
+    if (!request.heading.empty()) logLine("{}", request.heading);
     reportScene(scene_, records.warnings);
+    stopIfInterrupted();
     const Bvh bvh = buildBvh(scene_);
+    stopIfInterrupted();
     device_ = std::make_unique<Device>(request_.device);
-    fmt::print(stderr, "device {} ({}), subgroups of {}, {} records\n", device_->description().name,
-               device_->description().driver, device_->subgroupSize(),
-               device_->texelRecords() ? "texel" : "storage");
+    logLine("device {} ({}), subgroups of {}, {} records", device_->description().name,
+            device_->description().driver, device_->subgroupSize(),
+            device_->texelRecords() ? "texel" : "storage");
 
     createRenderer(options, records, bvh);
+}
+
+std::vector<NamedFile> RenderSession::inputs() const {
+    std::vector<NamedFile> files = inputFiles(request_);
+    files.push_back({"the environment", environment_});
+    for (const std::filesystem::path& file : scene_.files)
+        files.push_back({"a file of the scene", file.string()});
+    return files;
 }
 
 NrcOptions RenderSession::rendererOptions() const {
@@ -171,25 +189,33 @@ void RenderSession::createRenderer(const NrcOptions& options, const SceneRecords
         tracer_ = std::make_unique<WavefrontPathTracer>(*device_, gpuScene_, options.paths, &profiler_);
 }
 
-void RenderSession::applyChanges() {
+void RenderSession::applyChanges(uint32_t frame) {
     bool isChanged = false;
-    for (const SceneChange* change : changes_.at(renderedFrames_)) {
-        change->applyTo(scene_);
-        isChanged = isChanged || change->changesScene();
-        if (change->camera) camera_ = *change->camera;
-        if (change->restart) forgetFilm();
+    for (const SceneChange& change : changes_.takeUpTo(frame)) {
+        change.applyTo(scene_);
+        isChanged = isChanged || change.changesScene();
+        if (change.camera) camera_ = *change.camera;
+        if (change.restart) forgetFilm();
     }
     if (isChanged) updateScene(*device_, scene_, gpuScene_);
 }
 
-double RenderSession::renderFrame(uint32_t index) {
-    applyChanges();
-    ++renderedFrames_;
+double RenderSession::renderFrame(uint32_t number) {
+    applyChanges(number);
+    return renderWith(number);
+}
+
+double RenderSession::renderWarmupFrame(uint32_t index) {
+    applyChanges(request_.firstFrame);
+    return renderWith(UINT32_MAX - index);
+}
+
+double RenderSession::renderWith(uint32_t randomIndex) {
     const auto start = std::chrono::steady_clock::now();
     if (nrc_)
-        nrc_->renderFrame(camera_, index);
+        nrc_->renderFrame(camera_, randomIndex);
     else
-        tracer_->renderFrame(camera_, index);
+        tracer_->renderFrame(camera_, randomIndex);
     const double wall =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     profiler_.endFrame(wall);

@@ -123,14 +123,16 @@ void SceneChange::applyTo(Scene& scene) const {
     if (environment) scene.environment = *environment;
 }
 
-ScriptedChanges::ScriptedChanges(const std::filesystem::path& file, const Scene& scene) {
+ScriptedChanges::ScriptedChanges(const std::filesystem::path& file, const Scene& scene)
+    : file_(file.string()) {
     const auto bytes = readFile(file);
-    const Json json = parseJson(std::string(bytes.begin(), bytes.end()), file.string());
+    const Json json = parseJson(std::string(bytes.begin(), bytes.end()), file_);
     if (!json.is_array())
-        fail(ExitCode::BadData, "{}: must be a list of changes, each an object with a frame", file.string());
-    for (const Json& entry : json)
-        changes_.push_back(
-            readChange(entry, file.string(), fmt::format("changes[{}]", changes_.size()), scene));
+        fail(ExitCode::BadData, "{}: must be a list of changes, each an object with a frame", file_);
+    for (const Json& entry : json) {
+        changes_.push_back(readChange(entry, file_, fmt::format("changes[{}]", changes_.size()), scene));
+        changes_.back().entry = changes_.size() - 1;
+    }
     std::ranges::stable_sort(changes_, {}, &SceneChange::frame);
 }
 
@@ -148,11 +150,17 @@ PlannedStates ScriptedChanges::states(const Scene& scene) const {
     return states;
 }
 
-std::vector<const SceneChange*> ScriptedChanges::at(uint32_t frame) const {
-    std::vector<const SceneChange*> changes;
+void ScriptedChanges::requireBefore(uint32_t endFrame) const {
     for (const SceneChange& change : changes_)
-        if (change.frame == frame) changes.push_back(&change);
-    return changes;
+        if (change.frame >= endFrame)
+            fail(ExitCode::BadData, "{}: changes[{}].frame is {}, but the last frame rendered is {}", file_,
+                 change.entry, change.frame, endFrame - 1);
+}
+
+std::span<const SceneChange> ScriptedChanges::takeUpTo(uint32_t frame) {
+    const size_t first = taken_;
+    while (taken_ < changes_.size() && changes_[taken_].frame <= frame) ++taken_;
+    return std::span(changes_).subspan(first, taken_ - first);
 }
 
 } // namespace irradia

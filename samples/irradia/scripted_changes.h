@@ -7,8 +7,9 @@
 //      "camera": what a camera file holds under this name,
 //      "restart": true}
 //
-// Frame 0 is the first that is rendered, warm-up included. What an entry does not name stays; a change lasts
-// until another. "restart": the film begins anew with this frame, what was learned stays.
+// Frames are numbered as by --frames A-B. What an entry does not name stays; a change lasts until another, so
+// that frame A shows all changes up to A; warm-up sees the scene of frame A. "restart": the film begins anew
+// with this frame, what was learned stays.
 #pragma once
 
 #include "engine/scene/scene.h"
@@ -16,6 +17,7 @@
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace irradia {
@@ -31,6 +33,7 @@ struct SceneChange {
         std::optional<float> roughness, metallic;
     };
 
+    size_t entry = 0; // of the file's list
     uint32_t frame = 0;
     std::optional<Strength> strength;
     std::optional<Surface> surface;
@@ -50,11 +53,15 @@ public:
 
     // Everything that the scene will be.
     PlannedStates states(const Scene& scene) const;
-    // The changes of a frame, in the file's order.
-    std::vector<const SceneChange*> at(uint32_t frame) const;
+    // Throws Error(BadData) naming the first change that would never come.
+    void requireBefore(uint32_t endFrame) const;
+    // The changes up to this frame that were not taken before, by frame and then in the file's order.
+    std::span<const SceneChange> takeUpTo(uint32_t frame);
 
 private:
+    std::string file_;
     std::vector<SceneChange> changes_;
+    size_t taken_ = 0;
 };
 
 } // namespace irradia

@@ -41,7 +41,8 @@ void View::finish(FilmImage& film, std::span<const glm::vec3> reference) const {
         for (glm::vec3& pixel : film.mean) pixel = heatColour(pixel.r);
 }
 
-Rgba8Image View::display(const FilmImage& film) const {
+Rgba8Image View::display(const FilmImage& film, const DisplayOptions& options) const {
+    if (!showsNumbers()) return toDisplay(film.width, film.height, film.mean, options);
     std::vector<glm::vec3> shown = film.mean;
     if (counted != gpu::kViewPicture && !isHeatMap) {
         float largest = 0.0f;

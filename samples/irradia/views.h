@@ -1,7 +1,7 @@
 // What --view shows in place of the picture.
 #pragma once
 
-#include "engine/image/image.h"
+#include "engine/image/display.h"
 #include "nrc/renderer/nrc_renderer.h"
 
 namespace irradia {
@@ -15,12 +15,13 @@ struct View {
     bool isHeatMap = false;
     bool isErrorSign = false; // against a reference
 
+    bool showsNumbers() const { return counted != gpu::kViewPicture || isHeatMap || isErrorSign; }
     bool needsCache() const { return isFirstHit || counted != gpu::kViewPicture; }
     void applyTo(NrcOptions& options) const;
     // Makes the view of what was rendered; `reference` where the view needs one.
     void finish(FilmImage& film, std::span<const glm::vec3> reference) const;
-    // For a screen: white is the largest of counts.
-    Rgba8Image display(const FilmImage& film) const;
+    // For a screen: white is the largest of counts. The options are for radiance, numbers take no others.
+    Rgba8Image display(const FilmImage& film, const DisplayOptions& options = {}) const;
 };
 
 std::vector<std::string> viewNames();

@@ -1,28 +1,31 @@
 // make_scenes OUTDIR: writes the project's own scenes. Equal programs write equal bytes.
 #include "engine/error.h"
+#include "samples/support/program.h"
 #include "scenes.h"
+
+namespace irradia {
+namespace {
+
+void makeScenes(const std::filesystem::path& folder) {
+    std::filesystem::create_directories(folder);
+    scenes::writeCornellBox(folder);
+    scenes::writeDoorRoom(folder);
+    scenes::writeGlossyRoom(folder);
+    scenes::writeLampGallery(folder);
+    scenes::writeInterior(folder);
+    scenes::writeFurnaceSphere(folder);
+}
+
+} // namespace
+} // namespace irradia
 
 int main(int argc, char** argv) {
     using namespace irradia;
-    if (argc != 2) {
-        fmt::print(stderr, "usage: make_scenes OUTDIR\n");
-        return static_cast<int>(ExitCode::Usage);
-    }
-    try {
-        const std::filesystem::path folder = argv[1];
-        std::filesystem::create_directories(folder);
-        scenes::writeCornellBox(folder);
-        scenes::writeDoorRoom(folder);
-        scenes::writeGlossyRoom(folder);
-        scenes::writeLampGallery(folder);
-        scenes::writeInterior(folder);
-        scenes::writeFurnaceSphere(folder);
-        return 0;
-    } catch (const Error& error) {
-        fmt::print(stderr, "make_scenes: {}\n", error.what());
-        return static_cast<int>(error.code());
-    } catch (const std::exception& error) {
-        fmt::print(stderr, "make_scenes: {}\n", error.what());
-        return static_cast<int>(ExitCode::Io);
-    }
+    return runProgram("Writes the project's own scenes.", "make_scenes", [&](CLI::App& program) {
+        std::string folder;
+        program.add_option("OUTDIR", folder, "Folder for them, made where it is missing")->required();
+        program.parse(argc, argv);
+        if (folder.empty()) fail(ExitCode::Usage, "OUTDIR: the folder's name is empty");
+        makeScenes(folder);
+    });
 }

@@ -1,5 +1,6 @@
 #include "progress.h"
 
+#include "engine/log.h"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -32,7 +33,7 @@ ProgressMeter::ProgressMeter(std::string task, const std::string& mode, std::str
     , form_(formOf(mode)) {}
 
 ProgressMeter::~ProgressMeter() {
-    if (lineOpen_) fmt::print(stderr, "\n");
+    if (lineOpen_) logText("\n");
 }
 
 ProgressMeter::Form ProgressMeter::formOf(const std::string& mode) {
@@ -69,7 +70,7 @@ void ProgressMeter::note(const std::string& name, double value) {
 
 void ProgressMeter::finish() {
     show();
-    if (lineOpen_) fmt::print(stderr, "\n");
+    if (lineOpen_) logText("\n");
     lineOpen_ = false;
 }
 
@@ -78,19 +79,18 @@ void ProgressMeter::show() {
     const double elapsed = std::chrono::duration<double>(shown_ - start_).count();
     switch (form_) {
     case Form::Bar:
-        fmt::print(stderr, "\r{}\x1b[K", barText(elapsed)); // the escape clears what a longer line left
+        logText(fmt::format("\r{}\x1b[K", barText(elapsed))); // the escape clears what a longer line left
         lineOpen_ = true;
         break;
     case Form::Lines:
-        fmt::print(stderr, "{}\n", lineText(elapsed));
+        logLine("{}", lineText(elapsed));
         break;
     case Form::Json:
-        fmt::print(stderr, "{}\n", jsonText(elapsed));
+        logLine("{}", jsonText(elapsed));
         break;
     case Form::None:
         break;
     }
-    std::fflush(stderr);
 }
 
 std::string ProgressMeter::barText(double elapsed) const {

@@ -220,12 +220,76 @@ TEST_CASE("a picture of NaN passes no limit") {
     CHECK(result.at("nonfinite") == 36);
 }
 
+TEST_CASE("a value that is not finite fails every metric, and the pixels are counted") {
+    const Pictures pictures;
+    LayeredImage image = readExr(pictures.at("one.exr"));
+    image.channels["G"][5] = std::numeric_limits<float>::infinity();
+    image.channels["B"][5] = image.channels["B"][7] = std::numeric_limits<float>::quiet_NaN();
+    writeExr(pictures.at("holes.exr"), image);
+    const std::string holes = pictures.pair("holes.exr", "one.exr");
+    const Run told = irradiaProgram(holes + "--json");
+    CHECK(told.code == 0); // no limit was given
+    CHECK(told.err == "warning: 2 of 12 pixels are not finite and in no mean\n");
+    CHECK(json::parse(told.out).at("nonfinite") == 3);
+    for (const char* metric : {"mse", "relmse", "mape", "mean_ratio", "flip"}) {
+        const Run run = irradiaProgram(holes + "--fail-above " + metric + "=1000");
+        CHECK(run.code == 1);
+        CHECK(run.err.find(std::string(metric) + " fails by 2 pixels that are not finite") !=
+              std::string::npos);
+    }
+    CHECK(irradiaProgram(holes + "--fail-above nonfinite=3").code == 0);
+    CHECK(irradiaProgram(holes + "--fail-above nonfinite=2").code == 1);
+}
+
+TEST_CASE("compare warns of a reference whose own noise is in the difference") {
+    const Pictures pictures; // relmse of 1.1 to 1: 0.01 / 1.01
+    LayeredImage image = readExr(pictures.at("one.exr"));
+    const auto errors = [&](float variance) {
+        image.setRgb("Variance", std::vector<glm::vec3>(12, glm::vec3(variance)));
+        writeExr(pictures.at("noisy.exr"), image);
+        const Run run = irradiaProgram(pictures.pair("more.exr", "noisy.exr"));
+        CHECK(run.code == 0);
+        return run.err;
+    };
+    CHECK(errors(0.0005f).empty()); // 5 %
+    CHECK(errors(0.002f).find("own noise is a relmse of 0.00198, 20 % of the difference") !=
+          std::string::npos);
+    CHECK(irradiaProgram(pictures.pair("noisy.exr", "noisy.exr")).err.empty()); // no difference
+}
+
+TEST_CASE("compare takes layers and says what it measures") {
+    const Pictures pictures;
+    LayeredImage image = readExr(pictures.at("more.exr"));
+    image.setRgb("glow", std::vector<glm::vec3>(12, glm::vec3(1)));
+    writeExr(pictures.at("layers.exr"), image);
+    CHECK(irradiaProgram(pictures.pair("layers.exr:glow", "one.exr") + "--fail-above mse=0").code == 0);
+    CHECK(irradiaProgram(pictures.pair("layers.exr", "one.exr") + "--fail-above mse=0").code == 1);
+    const Run help = irradiaProgram("compare --help");
+    for (const char* words :
+         {"mean of (t - r)^2 / (r^2 + 0.01)", "mean of |t - r| / (|r| + 0.01)", "LDR-FLIP"})
+        CHECK(help.out.find(words) != std::string::npos);
+}
+
+TEST_CASE("--strict makes warnings about the scene errors, before anything is rendered") {
+    const TemporaryFolder folder;
+    const std::string dark = R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": []}]})";
+    const std::filesystem::path scene =
+        folder.write("dark.gltf", {reinterpret_cast<const uint8_t*>(dark.data()), dark.size()});
+    const Run run = irradiaProgram("render " + scene.string() + " --method pt --strict -o " +
+                                   (folder / "a.exr").string());
+    CHECK(run.code == 65);
+    CHECK(run.err.find("--strict allows no warning, and there is 1: the scene has no light") !=
+          std::string::npos);
+    CHECK_FALSE(std::filesystem::exists(folder / "a.exr"));
+}
+
 TEST_CASE("compare names what it cannot use") {
     const Pictures pictures;
     checkRefused(pictures.pair("one.exr", "none.exr"), 66, "none.exr");
     checkRefused(pictures.pair("text.exr", "one.exr"), 65, "text.exr");
     checkRefused(pictures.pair("depth.exr", "depth.exr"), 65, "depth.exr: has no channel R");
-    checkRefused(pictures.pair("one.exr", "nan.exr"), 65, "not finite at pixel (0, 0)");
+    checkRefused(pictures.pair("one.exr", "nan.exr"), 65,
+                 "not finite at 12 of 12 pixels, the first is (0, 0)");
     checkRefused(pictures.pair("one.exr", "small.exr"), 65, "4 x 3");
     checkRefused(pictures.pair("one.exr", "small.exr"), 65, "2 x 2");
     checkRefused(pictures.pair("one.exr", "one.exr") + "--fail-above psnr=3", 64, "psnr");

@@ -155,9 +155,24 @@ TEST_CASE("JPEG is decoded within its own rounding") {
     }
 }
 
-TEST_CASE("CMYK JPEG is refused by name") {
-    const Bytes bytes = makeJpeg(JpegForm::Cmyk, 16, 16, gradient(16, 16, 4));
-    expectError(ExitCode::BadData, "print.jpg: CMYK", [&] { decodeImage(bytes, "print.jpg"); });
+// The three forms store the same inks: none, all black, and half of each.
+TEST_CASE("JPEG of inks becomes RGBA") {
+    const auto check = [](JpegForm form, const Bytes& inks, const Bytes& expected) {
+        Bytes samples;
+        for (int i = 0; i < 16 * 16; ++i) samples.insert(samples.end(), inks.begin(), inks.end());
+        const Bytes pixels = decoded(makeJpeg(form, 16, 16, samples));
+        REQUIRE(pixels.size() == 4 * 16 * 16);
+        for (size_t i = 0; i < pixels.size(); ++i)
+            REQUIRE(std::abs(pixels[i] - expected[i % 4]) <= 2); // JPEG's rounding
+    };
+    for (const JpegForm form : {JpegForm::Cmyk, JpegForm::Ycck}) { // Adobe's: 255 is no ink
+        check(form, {255, 255, 255, 255}, {255, 255, 255, 255});
+        check(form, {255, 255, 255, 0}, {0, 0, 0, 255});
+        check(form, {200, 100, 50, 128}, {100, 50, 25, 255});
+    }
+    check(JpegForm::CmykPlain, {0, 0, 0, 0}, {255, 255, 255, 255});
+    check(JpegForm::CmykPlain, {0, 0, 0, 255}, {0, 0, 0, 255});
+    check(JpegForm::CmykPlain, {55, 155, 205, 127}, {100, 50, 25, 255});
 }
 
 TEST_CASE("what is neither PNG nor JPEG is refused by name") {

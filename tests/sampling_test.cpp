@@ -276,3 +276,37 @@ TEST_CASE("camera rays are uniform in their pixels") {
     CHECK(jitter.pValue() > kLevel);
     CHECK(device.validationMessages() == 0);
 }
+
+TEST_CASE("rays of an orthographic camera are parallel and leave their pixels") {
+    constexpr uint32_t kWidth = 8, kHeight = 4, kRays = kWidth * kHeight;
+    const Vec3 position(1, 2, 3), forward(0, 0, -1), right(2, 0, 0), up(0, 1, 0);
+    Device& device = test::validatedDevice();
+    const Kernel kernel(device, kernels::generate_camera_rays);
+    const Buffer rays(device, "rays", kRays * gpu::kRayRecords * 16),
+        radiance(device, "radiance", kRays * 16);
+    const Buffer counters(device, "counters", gpu::kCounters * 4);
+    FrameGraph graph(device);
+    const gpu::CameraParams params{glm::vec4(position, 0),
+                                   glm::vec4(forward, 0),
+                                   glm::vec4(right, 0),
+                                   glm::vec4(up, 0),
+                                   kWidth,
+                                   kHeight,
+                                   0,
+                                   kRays,
+                                   0,
+                                   1,
+                                   1,
+                                   1};
+    graph.pass(kernel).write(rays).write(radiance).readWrite(counters).push(params).dispatch(kRays);
+    graph.execute();
+    const auto records = download<glm::uvec4>(device, rays, kRays * gpu::kRayRecords);
+    for (uint32_t path = 0; path < kRays; ++path) {
+        const Vec3 origin = Vec3(toFloats(records[path * 3])) - position;
+        REQUIRE(Vec3(toFloats(records[path * 3 + 1])) == forward);
+        REQUIRE(origin.z == 0);
+        const double px = 0.5 * (origin.x / right.x + 1.0) * kWidth - path % kWidth;
+        const double py = 0.5 * (1.0 - origin.y / up.y) * kHeight - path / kWidth;
+        REQUIRE((px > -1e-5 && px < 1 + 1e-5 && py > -1e-5 && py < 1 + 1e-5)); // rounding of floats
+    }
+}

@@ -377,31 +377,35 @@ TEST_CASE("Tangents: made for normal maps, along +u, up against v") {
     }
 }
 
-TEST_CASE("Cameras: world transform without scale; orthographic ones are left out") {
+TEST_CASE("Cameras: world transform without scale, perspective and orthographic") {
     GltfBuilder builder = oneTriangle();
     builder.json["cameras"] = {
         {{"type", "perspective"}, {"name", "eye"}, {"perspective", {{"yfov", 0.8}, {"znear", 0.1}}}},
         {{"type", "orthographic"},
          {"name", "flat"},
-         {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"znear", 0}, {"zfar", 1}}}}};
+         {"orthographic", {{"xmag", 1}, {"ymag", 3}, {"znear", 0}, {"zfar", 1}}}}};
     const double h = std::sqrt(0.5);
-    builder.root({{"camera", 1}});
     builder.root(
         {{"camera", 0}, {"translation", {1, 2, 3}}, {"rotation", {0, h, 0, h}}, {"scale", {5, 2, 9}}});
+    builder.root({{"camera", 1}});
     const Scene scene = load(builder);
-    REQUIRE(scene.cameras.size() == 1);
+    REQUIRE(scene.cameras.size() == 2);
     const Camera& camera = scene.cameras[0];
     CHECK(camera.name == "eye");
     CHECK(camera.position == glm::vec3(1, 2, 3));
     CHECK(near(camera.forward, {-1, 0, 0})); // -Z a quarter turn about +Y
     CHECK(near(camera.up, {0, 1, 0}));
     CHECK(camera.verticalFov == 0.8f);
-    CHECK_THAT(joined(scene.notes), ContainsSubstring("camera 1 'flat'"));
+    CHECK_FALSE(camera.isOrthographic());
+    CHECK(scene.cameras[1].isOrthographic());
+    CHECK(scene.cameras[1].halfHeight == 3.0f);
+    CHECK(joined(scene.notes).empty());
 
     CHECK(chooseCamera(scene, "").camera.name == "eye");
     CHECK(chooseCamera(scene, "eye").camera.position == camera.position);
     CHECK(chooseCamera(scene, "0").camera.name == "eye");
-    CHECK_THROWS_AS(chooseCamera(scene, "1"), Error);
+    CHECK(chooseCamera(scene, "flat").camera.isOrthographic());
+    CHECK_THROWS_AS(chooseCamera(scene, "2"), Error);
     CHECK_THROWS_AS(chooseCamera(scene, "ear"), Error);
 }
 

@@ -1,21 +1,16 @@
 #include "engine/error.h"
 #include "engine/image/atomic_file.h"
 #include "engine/image/image.h"
-#include "engine/image/read_file.h"
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfIO.h>
-#include <ImfInputFile.h>
 #include <ImfOutputFile.h>
 #include <ImfStringAttribute.h>
 #include <exception>
 
 namespace irradia {
 namespace {
-
-constexpr uint64_t kMaxPixels = uint64_t{1} << 28;
-constexpr uint64_t kMaxValues = uint64_t{1} << 30; // over all channels: 4 GiB
 
 // Hands OpenEXR's bytes to an AtomicFile. OutputFile's destructor still writes and swallows exceptions, so
 // the first failure is kept and thrown by finish().
@@ -80,47 +75,6 @@ Imf::Slice floatSlice(const std::vector<float>& values, const Imath::Box2i& wind
     return Imf::Slice::Make(Imf::FLOAT, values.data(), window);
 }
 
-// Width and height, or an Error: from here on their product fits.
-void readSize(const Imath::Box2i& window, LayeredImage& image) {
-    const int64_t width = int64_t{window.max.x} - window.min.x + 1;
-    const int64_t height = int64_t{window.max.y} - window.min.y + 1;
-    if (width <= 0 || height <= 0) fail(ExitCode::BadData, "{}: the picture is empty", image.name);
-    if (static_cast<uint64_t>(width) > kMaxPixels / static_cast<uint64_t>(height))
-        fail(ExitCode::BadData, "{}: {} x {} pixels are more than the {} allowed", image.name, width, height,
-             kMaxPixels);
-    image.width = static_cast<int>(width);
-    image.height = static_cast<int>(height);
-}
-
-void readAttributes(const Imf::Header& header, LayeredImage& image) {
-    for (auto it = header.begin(); it != header.end(); ++it)
-        if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&it.attribute()))
-            image.attributes[it.name()] = text->value();
-}
-
-// Half and unsigned channels become float on the way.
-void readChannels(Imf::InputFile& file, LayeredImage& image) {
-    const Imath::Box2i window = file.header().dataWindow();
-    const Imf::ChannelList& list = file.header().channels();
-    const uint64_t pixels = static_cast<uint64_t>(image.width) * static_cast<uint64_t>(image.height);
-    uint64_t count = 0;
-    for (auto it = list.begin(); it != list.end(); ++it) ++count;
-    if (count > kMaxValues / pixels)
-        fail(ExitCode::BadData, "{}: {} channels of {} x {} pixels are more than the {} values allowed",
-             image.name, count, image.width, image.height, kMaxValues);
-    Imf::FrameBuffer frame;
-    for (auto it = list.begin(); it != list.end(); ++it) {
-        if (it.channel().xSampling != 1 || it.channel().ySampling != 1)
-            fail(ExitCode::BadData, "{}: channel {} is subsampled, which is not supported", image.name,
-                 it.name());
-        auto& values = image.channels[it.name()];
-        values.resize(pixels);
-        frame.insert(it.name(), floatSlice(values, window));
-    }
-    file.setFrameBuffer(frame);
-    file.readPixels(window.min.y, window.max.y);
-}
-
 } // namespace
 
 void writeExr(const std::filesystem::path& file, const LayeredImage& image) {
@@ -141,25 +95,6 @@ void writeExr(const std::filesystem::path& file, const LayeredImage& image) {
         fail(ExitCode::Internal, "{}: cannot be encoded as OpenEXR: {}", file.string(), error.what());
     }
     stream.finish();
-}
-
-LayeredImage readExr(const std::filesystem::path& file) {
-    requireFile(file);
-    LayeredImage image;
-    image.name = file.string();
-    try {
-        Imf::InputFile input(file.c_str(), 0);
-        readSize(input.header().dataWindow(), image);
-        readAttributes(input.header(), image);
-        readChannels(input, image);
-    } catch (const Error&) {
-        throw;
-    } catch (const std::bad_alloc&) {
-        throw;
-    } catch (const std::exception& error) {
-        fail(ExitCode::BadData, "{}: not a usable OpenEXR picture: {}", file.string(), error.what());
-    }
-    return image;
 }
 
 } // namespace irradia

@@ -19,10 +19,12 @@ struct LayeredImage {
     std::map<std::string, std::vector<float>> channels; // "R", "G", "B", "Albedo.R", "N.X", "Variance.R", ...
     std::map<std::string, std::string> attributes;      // "irradia.seed" -> "1"
     std::string name = "image";                         // of the file it came from, for errors
+    glm::mat3 toRec709{1.0f}; // of the R, G, B channels, whose primaries may be others
 
     // Layer "" is R, G, B; "N" with names "XYZ" is N.X, N.Y, N.Z.
     void setRgb(const std::string& layer, std::span<const glm::vec3> pixels, const char* names = "RGB");
-    // Throws BadData naming the first channel that is missing.
+    // Colours in linear Rec. 709; of a layer that has but Y, grey. Throws BadData naming the first channel
+    // that is missing.
     std::vector<glm::vec3> rgb(const std::string& layer = "", const char* names = "RGB") const;
 };
 
@@ -35,7 +37,9 @@ struct Rgba8Image {
 
 // EXR scanlines, float, ZIP. Throws Error (Io, NotFound, BadData) naming the file.
 void writeExr(const std::filesystem::path& file, const LayeredImage& image);
-LayeredImage readExr(const std::filesystem::path& file);
+// Of several parts the first that holds the layer is read (as R, G, B or Y), all its channels. A layer may be
+// called by its part's name too, alone or as PART.LAYER. The picture is that of the display window.
+LayeredImage readExr(const std::filesystem::path& file, const std::string& layer = "");
 
 // Radiance .hdr (RGBE, plain and run-length coded).
 LayeredImage readHdr(const std::filesystem::path& file);

@@ -40,6 +40,17 @@ void onProgress(j_common_ptr codec) {
     std::longjmp(errors->jump, 1);
 }
 
+// Without the profile of a press: R = (1 - C) (1 - K), and so on. Adobe's programs, and all that write their
+// marker, store 255 for no ink.
+void inksToRgba(uint8_t* row, uint32_t pixels, bool isInverted) {
+    for (uint8_t* p = row; p != row + size_t{4} * pixels; p += 4) {
+        const unsigned flip = isInverted ? 0u : 255u;
+        const unsigned unprinted = p[3] ^ flip; // of black
+        for (int c = 0; c < 3; ++c) p[c] = static_cast<uint8_t>(((p[c] ^ flip) * unprinted + 127) / 255);
+        p[3] = 255;
+    }
+}
+
 class Reader {
 public:
     Reader() {
@@ -55,9 +66,6 @@ public:
     const char* message() const { return errors_.text; }
     uint32_t width() const { return decoder_.image_width; }
     uint32_t height() const { return decoder_.image_height; }
-    bool isCmyk() const {
-        return decoder_.jpeg_color_space == JCS_CMYK || decoder_.jpeg_color_space == JCS_YCCK;
-    }
 
     bool readHeader(std::span<const uint8_t> bytes) {
         if (setjmp(errors_.jump)) return false;
@@ -68,19 +76,25 @@ public:
         return true;
     }
 
+    // Four components are inks: libjpeg turns YCCK into CMYK, and that is turned into RGB here.
     bool readRgba(uint8_t* out) {
         if (setjmp(errors_.jump)) return false;
-        decoder_.out_color_space = JCS_EXT_RGBA;
+        decoder_.out_color_space = isCmyk() ? JCS_CMYK : JCS_EXT_RGBA;
         jpeg_start_decompress(&decoder_);
         while (decoder_.output_scanline < decoder_.output_height) {
             JSAMPROW row = out + size_t{4} * decoder_.output_width * decoder_.output_scanline;
             jpeg_read_scanlines(&decoder_, &row, 1);
+            if (isCmyk()) inksToRgba(row, decoder_.output_width, decoder_.saw_Adobe_marker);
         }
         jpeg_finish_decompress(&decoder_);
         return true;
     }
 
 private:
+    bool isCmyk() const {
+        return decoder_.jpeg_color_space == JCS_CMYK || decoder_.jpeg_color_space == JCS_YCCK;
+    }
+
     jpeg_decompress_struct decoder_{};
     jpeg_progress_mgr progress_{};
     ErrorManager errors_{};
@@ -92,7 +106,6 @@ Rgba8Image decodeJpeg(std::span<const uint8_t> bytes, const std::string& name) {
     Reader reader;
     if (!reader.readHeader(bytes))
         fail(ExitCode::BadData, "{}: not a usable JPEG: {}", name, reader.message());
-    if (reader.isCmyk()) fail(ExitCode::BadData, "{}: CMYK JPEG is not supported, store it as RGB", name);
     checkDecodedSize(reader.width(), reader.height(), name);
     Rgba8Image image{static_cast<int>(reader.width()), static_cast<int>(reader.height()), {}};
     image.pixels.resize(size_t{4} * reader.width() * reader.height());

@@ -3,6 +3,7 @@
 #include "engine/error.h"
 #include "engine/image/display.h"
 #include "engine/image/flip.h"
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -39,10 +40,22 @@ double meanFlip(int width, int height, std::span<const glm::vec3> test,
 } // namespace
 
 void checkReference(int width, std::span<const glm::vec3> reference) {
+    const auto isBad = [](const glm::vec3& pixel) { return !isFinite(pixel); };
+    const auto first = std::ranges::find_if(reference, isBad);
+    if (first == reference.end()) return;
+    const auto i = static_cast<size_t>(first - reference.begin());
+    fail(ExitCode::BadData, "the reference is not finite at {} of {} pixels, the first is ({}, {})",
+         std::ranges::count_if(reference, isBad), reference.size(), i % size_t(width), i / size_t(width));
+}
+
+double relativeVariance(std::span<const glm::vec3> reference, std::span<const glm::vec3> variance) {
+    double sum = 0;
     for (size_t i = 0; i < reference.size(); ++i)
-        if (!isFinite(reference[i]))
-            fail(ExitCode::BadData, "the reference is not finite at pixel ({}, {})", i % size_t(width),
-                 i / size_t(width));
+        for (int c = 0; c < 3; ++c) {
+            const double r = reference[i][c];
+            sum += variance[i][c] / (r * r + kEpsilon);
+        }
+    return sum / (3.0 * static_cast<double>(reference.size()));
 }
 
 ImageMetrics compareImages(int width, int height, std::span<const glm::vec3> test,
@@ -66,6 +79,7 @@ ImageMetrics compareImages(int width, int height, std::span<const glm::vec3> tes
             sum.mape += std::abs(t - r) / (std::abs(r) + kEpsilon);
             ++values;
         }
+        if (!isFinite(test[i])) ++sum.nonFinitePixels;
         if (!isFinite(test[i])) continue; // a pixel counts for the luminances in both pictures or in none
         testLuminance += luminance(test[i]);
         referenceLuminance += luminance(reference[i]);
@@ -76,7 +90,8 @@ ImageMetrics compareImages(int width, int height, std::span<const glm::vec3> tes
             sum.mape / count,
             values ? ratio(testLuminance, referenceLuminance) : count,
             meanFlip(width, height, test, reference),
-            sum.nonFinite};
+            sum.nonFinite,
+            sum.nonFinitePixels};
 }
 
 std::vector<glm::vec3> errorSigns(int width, int height, std::span<const glm::vec3> test,

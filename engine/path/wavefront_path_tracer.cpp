@@ -165,7 +165,7 @@ void WavefrontPathTracer::forgetFilm() {
 void WavefrontPathTracer::traceWave(const Camera& camera, const Wave& wave, uint32_t frame, uint32_t sample,
                                     const CachePaths* cache) {
     const uint32_t sampleIndex = frame * options_.samplesPerFrame + sample;
-    const float scale = std::tan(0.5f * camera.verticalFov);
+    const float scale = camera.isOrthographic() ? camera.halfHeight : std::tan(0.5f * camera.verticalFov);
     const float aspect = static_cast<float>(options_.width) / static_cast<float>(options_.height);
     const glm::vec3 right = glm::normalize(glm::cross(camera.forward, camera.up));
     const gpu::CameraParams params{glm::vec4(camera.position, 0),
@@ -179,7 +179,7 @@ void WavefrontPathTracer::traceWave(const Camera& camera, const Wave& wave, uint
                                    sampleIndex,
                                    options_.seed,
                                    sample == 0 ? 1u : 0u,
-                                   0};
+                                   camera.isOrthographic() ? 1u : 0u};
     graph_.pass(kernels_.generateCameraRays)
         .write(rays_[0])
         .write(radiance_)

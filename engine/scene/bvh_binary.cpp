@@ -1,7 +1,7 @@
 #include "engine/scene/bvh_binary.h"
 #include "engine/error.h"
+#include "engine/scene/embree.h"
 #include <algorithm>
-#include <embree3/rtcore.h>
 #include <limits>
 #include <memory>
 #include <numeric>

@@ -33,8 +33,9 @@ private:
                     uint64_t count, uint64_t size, uint64_t stride) const {
         checkIndex(owner, "buffer view", view, model_.bufferViews.size(), Need::Required);
         const uint64_t length = model_.bufferViews[view].byteLength;
-        const bool fits = offset <= length && size <= length - offset &&
-                          (count == 0 || count - 1 <= (length - offset - size) / stride);
+        const bool fits =
+            offset <= length &&
+            (count == 0 || (size <= length - offset && count - 1 <= (length - offset - size) / stride));
         if (!fits)
             source_.refuse(
                 "{}: {}: {} elements of {} bytes, {} apart, from byte {} do not fit the {} bytes of "
@@ -47,7 +48,6 @@ private:
         const std::string owner = label("accessor", index, accessor.name);
         if (!isComponentType(accessor.componentType))
             source_.refuse("{}: VALUE_NOT_IN_LIST: component type {}", owner, accessor.componentType);
-        if (accessor.count == 0) source_.refuse("{}: VALUE_NOT_IN_RANGE: count 0", owner);
         if (accessor.normalized && (accessor.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT ||
                                     accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT))
             source_.refuse("{}: ACCESSOR_NORMALIZED_INVALID: component type {}", owner,
@@ -75,8 +75,6 @@ private:
         if (sparse.count < 1 || static_cast<uint64_t>(sparse.count) > accessor.count)
             source_.refuse("{}: ACCESSOR_SPARSE_COUNT_OUT_OF_RANGE: {} of {}", owner, sparse.count,
                            accessor.count);
-        if (sparse.indices.byteOffset < 0 || sparse.values.byteOffset < 0)
-            source_.refuse("{}: VALUE_NOT_IN_RANGE: negative sparse offset", owner);
         const auto count = static_cast<uint64_t>(sparse.count);
         const uint64_t indexSize = componentSize(type), size = elementSize(accessor);
         checkRange(owner, "ACCESSOR_TOO_LONG (sparse indices)", sparse.indices.bufferView,

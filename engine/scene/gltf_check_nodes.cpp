@@ -8,6 +8,13 @@ namespace {
 
 constexpr size_t kNone = SIZE_MAX;
 
+// The last row is 0 0 0 1 but for what exporters round; the loader takes it as exact.
+bool isAffine(const std::vector<double>& m) {
+    constexpr double kRounding = 1e-4;
+    return std::abs(m[3]) <= kRounding && std::abs(m[7]) <= kRounding && std::abs(m[11]) <= kRounding &&
+           std::abs(m[15] - 1) <= kRounding;
+}
+
 class NodeCheck : private ModelCheck {
 public:
     using ModelCheck::ModelCheck;
@@ -41,7 +48,7 @@ private:
     }
 
     void checkTransform(const std::string& owner, const tinygltf::Node& node) const {
-        if (const auto& m = node.matrix; !m.empty() && !(m[3] == 0 && m[7] == 0 && m[11] == 0 && m[15] == 1))
+        if (const auto& m = node.matrix; !m.empty() && !isAffine(m))
             source_.refuse("{}: NODE_MATRIX_NON_TRS: the last row is not 0 0 0 1", owner);
         if (const auto& q = node.rotation; !q.empty()) {
             const double length = std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3]));

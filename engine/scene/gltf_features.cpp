@@ -1,50 +1,60 @@
 #include "engine/scene/gltf_features.h"
 
 #include <algorithm>
-#include <array>
+#include <fmt/ranges.h>
 #include <string_view>
+#include <vector>
 
 namespace irradia::gltf {
 namespace {
 
-constexpr std::array<std::string_view, 5> kReadExtensions{
-    "KHR_materials_emissive_strength", "KHR_materials_ior", "KHR_materials_specular",
-    "KHR_materials_pbrSpecularGlossiness", "KHR_mesh_quantization"};
+// Those that change nothing in a picture are among them.
+constexpr std::string_view kReadExtensions[] = {"KHR_materials_emissive_strength",
+                                                "KHR_materials_ior",
+                                                "KHR_materials_specular",
+                                                "KHR_materials_pbrSpecularGlossiness",
+                                                "KHR_mesh_quantization",
+                                                "KHR_xmp",
+                                                "KHR_xmp_json_ld"};
 
 constexpr size_t kMaxWarnings = 64; // a broken file may earn one for each of a million things
 
+// What changes the picture and is left out: the file can be read all the same.
 struct IgnoredExtension {
     std::string_view name;
     std::string_view consequence;
 };
-constexpr std::array<IgnoredExtension, 4> kIgnoredExtensions{{
+constexpr IgnoredExtension kIgnoredExtensions[] = {
     {"KHR_materials_transmission", "such materials are opaque"},
+    {"KHR_materials_diffuse_transmission", "such materials are opaque"},
+    {"KHR_materials_volume", "such materials are opaque"},
+    {"KHR_materials_dispersion", "such materials are opaque"},
     {"KHR_materials_unlit", "such materials are lit"},
+    {"KHR_materials_clearcoat", "such materials have no coat"},
+    {"KHR_materials_sheen", "such materials have no sheen"},
+    {"KHR_materials_anisotropy", "such materials reflect alike in all directions"},
+    {"KHR_materials_iridescence", "such materials have no thin film"},
+    {"KHR_materials_variants", "the default variant is shown"},
     {"KHR_texture_transform", "textures keep their plain coordinates"},
     {"KHR_lights_punctual", "point, spot and directional lights are dark"},
-}};
+    {"EXT_lights_image_based", "its light from outside is dark"},
+    {"EXT_lights_ies", "such lights are dark"},
+    {"EXT_mesh_gpu_instancing", "each such mesh stands once"},
+    {"KHR_node_visibility", "hidden nodes are shown"},
+    {"KHR_animation_pointer", "the scene is at rest"},
+};
 
 bool isRead(std::string_view name) {
-    return std::find(kReadExtensions.begin(), kReadExtensions.end(), name) != kReadExtensions.end();
+    return std::ranges::find(kReadExtensions, name) != std::end(kReadExtensions);
 }
 
 const IgnoredExtension* findIgnored(std::string_view name) {
-    const auto found =
-        std::find_if(kIgnoredExtensions.begin(), kIgnoredExtensions.end(),
-                     [&](const IgnoredExtension& extension) { return extension.name == name; });
-    return found == kIgnoredExtensions.end() ? nullptr : &*found;
+    const auto* found = std::ranges::find(kIgnoredExtensions, name, &IgnoredExtension::name);
+    return found == std::end(kIgnoredExtensions) ? nullptr : found;
 }
 
-void noteExtensions(const tinygltf::Model& model, SceneNotes& notes) {
-    std::string others;
-    for (const std::string& name : model.extensionsUsed) {
-        if (isRead(name)) continue;
-        if (const IgnoredExtension* ignored = findIgnored(name))
-            warnOnce(notes, fmt::format("{} is not supported yet: {}", name, ignored->consequence));
-        else
-            others += (others.empty() ? "" : ", ") + name;
-    }
-    if (!others.empty()) warnOnce(notes, "optional extensions ignored: " + others);
+std::string joined(const std::vector<std::string>& names) {
+    return fmt::format("{}", fmt::join(names, ", "));
 }
 
 void noteMaterials(const tinygltf::Model& model, SceneNotes& notes) {
@@ -70,18 +80,47 @@ void noteMeshes(const tinygltf::Model& model, SceneNotes& notes) {
     if (targets) warnOnce(notes, "morph targets are not supported yet: meshes keep their base shape");
 }
 
+void noteEmptyAccessors(const tinygltf::Model& model, SceneNotes& notes) {
+    for (size_t i = 0; i < model.accessors.size(); ++i)
+        if (model.accessors[i].count == 0)
+            warnOnce(notes, label("accessor", i, model.accessors[i].name) +
+                                ": VALUE_NOT_IN_RANGE: count 0: what uses it is left out");
+}
+
 } // namespace
 
-void refuseUnknownExtensions(const SourceFile& source, const std::vector<std::string>& required) {
-    for (const std::string& name : required)
+void refuseUnreadableExtensions(const SourceFile& source, const JsonFindings& findings) {
+    for (const std::string& name : findings.extensionsRequired)
         if (!isRead(name) && !findIgnored(name))
             source.refuse("the file requires the extension '{}', which is not supported", name);
 }
 
+void noteExtensions(const JsonFindings& findings, SceneNotes& notes) {
+    std::set<std::string> names = findings.extensionsDeclared;
+    names.insert(findings.extensionsRequired.begin(), findings.extensionsRequired.end());
+    names.insert(findings.extensionsFound.begin(), findings.extensionsFound.end());
+    std::vector<std::string> undeclared, others;
+    for (const std::string& name : names) {
+        if (!findings.extensionsDeclared.contains(name)) undeclared.push_back(name);
+        if (isRead(name)) continue;
+        const IgnoredExtension* ignored = findIgnored(name);
+        if (!ignored)
+            others.push_back(name);
+        else if (findings.extensionsRequired.contains(name))
+            warnOnce(notes, fmt::format("the file requires {}, which is not rendered yet: {}", name,
+                                        ignored->consequence));
+        else
+            warnOnce(notes, fmt::format("{} is not supported yet: {}", name, ignored->consequence));
+    }
+    if (!others.empty()) warnOnce(notes, "optional extensions ignored: " + joined(others));
+    if (!undeclared.empty())
+        warnOnce(notes, "extensions used but not declared in extensionsUsed: " + joined(undeclared));
+}
+
 void noteIgnoredFeatures(const tinygltf::Model& model, SceneNotes& notes) {
-    noteExtensions(model, notes);
     noteMaterials(model, notes);
     noteMeshes(model, notes);
+    noteEmptyAccessors(model, notes);
     if (!model.skins.empty())
         warnOnce(notes, "skins are not supported yet: meshes keep their unskinned shape");
     if (!model.animations.empty()) warnOnce(notes, "animations are not supported yet: the scene is at rest");

@@ -1,6 +1,7 @@
 #include "engine/scene/gltf_file.h"
 
 #include "engine/image/read_file.h"
+#include "engine/scene/gltf_data_uri.h"
 #include <algorithm>
 #include <charconv>
 
@@ -26,6 +27,7 @@ bool isInside(const std::filesystem::path& folder, const std::filesystem::path& 
 
 std::string printable(std::string text) {
     constexpr size_t kShown = 300;
+    text = withoutData(std::move(text));
     if (text.size() > kShown) text = text.substr(0, kShown) + "...";
     for (char& c : text)
         if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
@@ -52,8 +54,9 @@ std::string decodeUri(std::string_view uri) {
 }
 
 std::filesystem::path resolveUri(const SourceFile& source, const std::string& decodedUri) {
-    const std::filesystem::path relative(decodedUri);
-    const bool climbs = std::find(relative.begin(), relative.end(), "..") != relative.end();
+    // Dot segments go by the text alone (RFC 3986, 5.2.4): folders between them need not be there.
+    const auto relative = std::filesystem::path(decodedUri).lexically_normal();
+    const bool climbs = relative.begin() != relative.end() && *relative.begin() == "..";
     if (decodedUri.empty() || relative.is_absolute() || climbs || decodedUri.find(':') != std::string::npos ||
         decodedUri.find('\0') != std::string::npos)
         source.refuse("uri '{}' is not a plain path inside the scene's folder", decodedUri);
@@ -66,8 +69,10 @@ std::filesystem::path resolveUri(const SourceFile& source, const std::string& de
     return file;
 }
 
-std::vector<uint8_t> readBeside(const SourceFile& source, const std::string& decodedUri) {
-    return readCapped(resolveUri(source, decodedUri));
+std::vector<uint8_t> readUri(const SourceFile& source, const std::string& decodedUri) {
+    if (!isDataUri(decodedUri)) return readCapped(resolveUri(source, decodedUri));
+    if (auto bytes = decodeDataUri(decodedUri)) return std::move(*bytes);
+    source.refuse("uri '{}' is not a usable data URI", decodedUri);
 }
 
 std::string label(std::string_view kind, size_t index, const std::string& name) {

@@ -14,7 +14,8 @@ namespace irradia::gltf {
 // Above this a file, a buffer and an offset would leave the 31 bits tinygltf counts in.
 constexpr uint64_t kMaxFileBytes = (uint64_t{1} << 31) - 1;
 
-// Text from a file as a terminal may show it: no control characters, no more than fits a few lines.
+// Text from a file as a terminal may show it: no control characters, no base64, no more than fits a few
+// lines.
 std::string printable(std::string text);
 
 struct SourceFile {
@@ -36,11 +37,11 @@ SourceFile openSource(const std::filesystem::path& file);
 std::string decodeUri(std::string_view uri);
 
 // The file a decoded relative URI names. Throws BadData for anything that leaves the scene's folder: an
-// absolute path, a scheme, "..", a symbolic link to elsewhere.
+// absolute path, a scheme, ".." beyond it, a symbolic link to elsewhere.
 std::filesystem::path resolveUri(const SourceFile& source, const std::string& decodedUri);
 
-// The bytes of a file beside the scene. Throws as openSource and resolveUri.
-std::vector<uint8_t> readBeside(const SourceFile& source, const std::string& decodedUri);
+// The bytes of a file beside the scene, or of a data URI. Throws as openSource and resolveUri.
+std::vector<uint8_t> readUri(const SourceFile& source, const std::string& decodedUri);
 
 // "accessor 3" or "material 2 'wood'".
 std::string label(std::string_view kind, size_t index, const std::string& name = {});

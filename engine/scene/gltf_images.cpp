@@ -1,6 +1,7 @@
 #include "engine/scene/gltf_images.h"
 
 #include "engine/image/image.h"
+#include "engine/scene/gltf_data_uri.h"
 #include <tbb/parallel_for.h>
 
 namespace irradia::gltf {
@@ -9,7 +10,7 @@ namespace {
 constexpr uint64_t kMaxTexels = 1ull << 29; // of all pictures, 2 GiB
 
 std::string imageName(const tinygltf::Image& image) {
-    return image.name.empty() ? image.uri : image.name;
+    return image.name.empty() ? withoutData(image.uri) : image.name;
 }
 
 } // namespace
@@ -20,6 +21,16 @@ ImageTable::ImageTable(const SourceFile& source, const tinygltf::Model& model,
     , model_(model)
     , images_(images)
     , slots_(model.images.size(), -1) {}
+
+bool ImageTable::isMissing(int index) const {
+    const tinygltf::Image& image = model_.images[index];
+    const bool isBeside = image.bufferView < 0 && image.image.empty() && !isDataUri(image.uri);
+    return isBeside && !std::filesystem::exists(resolveUri(source_, decodeUri(image.uri)));
+}
+
+std::string ImageTable::nameOf(int index) const {
+    return label("image", static_cast<size_t>(index), imageName(model_.images[index]));
+}
 
 int ImageTable::use(int image) {
     if (slots_[image] < 0) {
@@ -42,19 +53,18 @@ void ImageTable::decode() {
 
 TextureImage ImageTable::decodeOne(size_t index) const {
     const tinygltf::Image& image = model_.images[index];
-    const std::string name = imageName(image);
     std::vector<uint8_t> external;
     std::span<const uint8_t> encoded(image.image); // of a data URI
     if (image.bufferView >= 0) {
         const tinygltf::BufferView& view = model_.bufferViews[image.bufferView];
         encoded = std::span(model_.buffers[view.buffer].data).subspan(view.byteOffset, view.byteLength);
     } else if (encoded.empty()) {
-        external = readBeside(source_, decodeUri(image.uri));
+        external = readUri(source_, decodeUri(image.uri));
         encoded = external;
     }
     Rgba8Image decoded =
-        decodeImage(encoded, fmt::format("{}: {}", source_.path.string(), label("image", index, name)));
-    return {name, decoded.width, decoded.height, std::move(decoded.pixels)};
+        decodeImage(encoded, fmt::format("{}: {}", source_.path.string(), nameOf(static_cast<int>(index))));
+    return {imageName(image), decoded.width, decoded.height, std::move(decoded.pixels)};
 }
 
 } // namespace irradia::gltf

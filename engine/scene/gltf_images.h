@@ -12,6 +12,10 @@ class ImageTable {
 public:
     ImageTable(const SourceFile& source, const tinygltf::Model& model, std::vector<TextureImage>& images);
 
+    // The image is a file beside the scene, and that is not there.
+    bool isMissing(int image) const;
+    std::string nameOf(int image) const; // "image 3 'bark.png'", as messages say it
+
     // The scene's index for the file's image; it is decoded later, once.
     int use(int image);
 

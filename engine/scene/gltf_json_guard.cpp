@@ -1,6 +1,6 @@
 #include "engine/scene/gltf_json_guard.h"
 
-#include <array>
+#include <algorithm>
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -67,14 +67,15 @@ public:
         countValue();
         const std::string_view name = property();
         if (!isInteger(name)) return true;
-        const uint64_t limit = kSizeProperties.contains(name) ? kMaxSize : kMaxIndex;
+        const uint64_t limit = kSizeProperties.contains(name) && !isSparse() ? kMaxSize : kMaxIndex;
         if (value > limit) source_.refuse("{}: VALUE_NOT_IN_RANGE: {} is above {}", where(), value, limit);
         return true;
     }
 
     bool string(std::string& value) override {
+        if (path_.size() == 2 && path_[0].key == "extensionsUsed") findings_.extensionsDeclared.insert(value);
         if (path_.size() == 2 && path_[0].key == "extensionsRequired")
-            findings_.extensionsRequired.push_back(value);
+            findings_.extensionsRequired.insert(value);
         return notAnInteger("a text");
     }
 
@@ -85,6 +86,8 @@ public:
 
     bool key(std::string& name) override {
         path_.back().key = name;
+        if (path_.size() > 1 && path_[path_.size() - 2].key == "extensions" && !isExtra())
+            findings_.extensionsFound.insert(name);
         return true;
     }
 
@@ -136,6 +139,10 @@ private:
         return {};
     }
 
+    bool isExtra() const {
+        return std::ranges::any_of(path_, [](const Level& level) { return level.key == "extras"; });
+    }
+
     bool isInteger(std::string_view name) const {
         if (schema_ == Schema::Any) return false;
         for (const Level& level : path_) {
@@ -150,6 +157,11 @@ private:
         return path_.size() >= 6 && path_[0].key == "meshes" && path_[2].key == "primitives" &&
                ((path_.size() == 6 && path_[4].key == "attributes") ||
                 (path_.size() == 7 && path_[4].key == "targets"));
+    }
+
+    // accessors/A/sparse/...: tinygltf keeps these sizes in 32 bits.
+    bool isSparse() const {
+        return path_.size() >= 3 && path_[0].key == "accessors" && path_[2].key == "sparse";
     }
 
     // A JSON pointer to the value being read, "/accessors/3/count".

@@ -4,15 +4,17 @@
 #pragma once
 
 #include "engine/scene/gltf_file.h"
+#include <set>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace irradia::gltf {
 
+// The names of extensions, needed before parsing: a file may make no sense without one.
 struct JsonFindings {
-    std::vector<std::string>
-        extensionsRequired; // needed before parsing: such a file may make no sense otherwise
+    std::set<std::string> extensionsDeclared; // in extensionsUsed
+    std::set<std::string> extensionsRequired;
+    std::set<std::string> extensionsFound; // where an object holds its "extensions"
 };
 
 enum class Schema { Gltf, Any }; // Any: only the shape of the text counts

@@ -150,6 +150,11 @@ private:
             warnOnce(notes_, label("texture", index, from.name) + " has no picture of a supported format");
             return {};
         }
+        if (images_.isMissing(from.source)) {
+            warnOnce(notes_, fmt::format("{} is left out: {} is missing", label("texture", index, from.name),
+                                         images_.nameOf(from.source)));
+            return {};
+        }
         TextureRef ref{images_.use(from.source), uvSet, Wrap::Repeat, Wrap::Repeat};
         if (from.sampler >= 0) {
             ref.wrapS = wrap(model_.samplers[from.sampler].wrapS);

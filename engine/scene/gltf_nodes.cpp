@@ -10,7 +10,11 @@ namespace irradia::gltf {
 namespace {
 
 glm::dmat4 localTransform(const tinygltf::Node& node) {
-    if (!node.matrix.empty()) return glm::make_mat4(node.matrix.data());
+    if (!node.matrix.empty()) {
+        glm::dmat4 matrix = glm::make_mat4(node.matrix.data());
+        for (int column = 0; column < 4; ++column) matrix[column].w = column == 3 ? 1.0 : 0.0;
+        return matrix;
+    }
     glm::dmat4 transform(1.0);
     if (!node.translation.empty())
         transform = glm::translate(transform, glm::make_vec3(node.translation.data()));
@@ -74,16 +78,18 @@ std::vector<Camera> placeCameras(const tinygltf::Model& model, const std::vector
         const tinygltf::Camera& from = model.cameras[node.camera];
         Camera camera;
         camera.name = from.name.empty() ? node.name : from.name;
-        camera.verticalFov = static_cast<float>(from.perspective.yfov);
-        if (from.type != "perspective")
-            warnOnce(notes,
-                     label("camera", node.camera, camera.name) + " is left out: it is not perspective");
-        else if (!orient(camera, placement.toWorld))
+        if (from.type == "orthographic")
+            camera.halfHeight = static_cast<float>(std::abs(from.orthographic.ymag));
+        else
+            camera.verticalFov = static_cast<float>(from.perspective.yfov);
+        if (!orient(camera, placement.toWorld))
             warnOnce(notes,
                      label("camera", node.camera, camera.name) + " is left out: its node has no orientation");
         else
             cameras.push_back(camera);
     }
+    if (cameras.empty() && !model.cameras.empty())
+        warnOnce(notes, "no camera of the file can be used: the view frames the whole scene");
     return cameras;
 }
 

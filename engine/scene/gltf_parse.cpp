@@ -1,6 +1,8 @@
 #include "engine/scene/gltf_parse.h"
 
+#include "engine/scene/gltf_data_uri.h"
 #include "engine/scene/gltf_features.h"
+#include "engine/scene/gltf_foreign.h"
 #include "engine/scene/gltf_json_guard.h"
 #include <exception>
 #include <sstream>
@@ -19,7 +21,7 @@ bool fileExists(const std::string& uri, void* user) {
     auto& access = *static_cast<FileAccess*>(user);
     if (access.error) return false;
     try {
-        resolveUri(access.source, uri);
+        if (!isDataUri(uri)) resolveUri(access.source, uri);
         return true;
     } catch (...) {
         access.error = std::current_exception();
@@ -34,7 +36,7 @@ std::string sameName(const std::string& uri, void*) {
 bool readWholeFile(std::vector<unsigned char>* out, std::string*, const std::string& uri, void* user) {
     auto& access = *static_cast<FileAccess*>(user);
     try {
-        *out = readBeside(access.source, uri);
+        *out = readUri(access.source, uri);
         return true;
     } catch (...) {
         access.error = std::current_exception();
@@ -42,7 +44,30 @@ bool readWholeFile(std::vector<unsigned char>* out, std::string*, const std::str
     }
 }
 
-// Keeps what a data URI held. The bytes of a buffer view are unchecked here and are read later.
+bool writeNothing(std::string*, const std::string&, const std::vector<unsigned char>&, void*) {
+    return false;
+}
+
+// Every callback, for tinygltf may take all of them or none. Versions from 2.9 on ask for a file's size
+// before they read it, to compare it with a limit of their own; ours is checked in reading.
+template <typename Callbacks = tinygltf::FsCallbacks>
+Callbacks fileCallbacks(FileAccess& access) {
+    Callbacks callbacks{};
+    callbacks.FileExists = fileExists;
+    callbacks.ExpandFilePath = sameName;
+    callbacks.ReadWholeFile = readWholeFile;
+    callbacks.WriteWholeFile = writeNothing;
+    callbacks.user_data = &access;
+    if constexpr (requires { callbacks.GetFileSizeInBytes; })
+        callbacks.GetFileSizeInBytes = [](size_t* size, std::string*, const std::string&, void*) {
+            *size = 0;
+            return true;
+        };
+    return callbacks;
+}
+
+// Keeps what a data URI held, of the media types that tinygltf knows. The bytes of a buffer view are
+// unchecked here and are read later.
 bool keepEncoded(tinygltf::Image* image, const int, std::string*, std::string*, int, int,
                  const unsigned char* bytes, int size, void*) {
     image->as_is = true;
@@ -67,12 +92,15 @@ std::string firstLine(const std::string& text) {
 } // namespace
 
 tinygltf::Model parseModel(const SourceFile& source, SceneNotes& notes) {
+    refuseForeignFormat(source);
     const std::string_view json = jsonText(source);
-    refuseUnknownExtensions(source, guardJson(source, json).extensionsRequired);
+    const JsonFindings findings = guardJson(source, json);
+    refuseUnreadableExtensions(source, findings);
+    noteExtensions(findings, notes);
 
     FileAccess access{source, nullptr};
     tinygltf::TinyGLTF reader;
-    reader.SetFsCallbacks({fileExists, sameName, readWholeFile, nullptr, &access});
+    reader.SetFsCallbacks(fileCallbacks(access));
     reader.SetImageLoader(keepEncoded, nullptr);
 
     tinygltf::Model model;

@@ -2,6 +2,7 @@
 
 #include "engine/scene/gltf_accessors.h"
 #include "engine/scene/gltf_model_check.h"
+#include <cmath>
 
 namespace irradia::gltf {
 namespace {
@@ -109,6 +110,10 @@ private:
     void checkCamera(size_t index) const {
         const tinygltf::Camera& camera = model_.cameras[index];
         const double fov = camera.perspective.yfov; // radians
+        const double height = std::abs(camera.orthographic.ymag);
+        if (camera.type == "orthographic" && !(height > 1e-30 && height < 1e30))
+            source_.refuse("{}: VALUE_NOT_IN_RANGE: ymag {}", label("camera", index, camera.name),
+                           camera.orthographic.ymag);
         if (camera.type == "perspective" && !(fov > 1e-6 && fov < 3.14159265))
             source_.refuse("{}: VALUE_NOT_IN_RANGE: yfov {}", label("camera", index, camera.name), fov);
     }

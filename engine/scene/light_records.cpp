@@ -1,11 +1,13 @@
 #include "engine/scene/light_records.h"
 
 #include "engine/scene/alias_table.h"
+#include "engine/scene/environment_reduction.h"
 #include "engine/scene/light_tree.h"
 #include "engine/scene/texture_packing.h"
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <fmt/format.h>
 #include <numbers>
 
 namespace irradia {
@@ -118,13 +120,18 @@ LightRecords packLights(const Scene& scene, const std::vector<bool>& emitters) {
     return out;
 }
 
-void packEnvironment(const Environment& environment, SceneRecords& out) {
+void packEnvironment(const Environment& environment, SceneRecords& out, uint64_t maxTexels) {
     Environment picture = environment;
     if (picture.texels.empty()) {
         picture.width = 64;
         picture.height = 32;
         picture.texels.assign(64 * 32, environment.constant);
     }
+    reduceToFit(picture, maxTexels);
+    if (!environment.texels.empty() && picture.width != environment.width)
+        out.warnings.push_back(fmt::format("the environment of {}x{} was reduced to {}x{} to fit",
+                                           environment.width, environment.height, picture.width,
+                                           picture.height));
     const size_t count = picture.texels.size();
     std::vector<double> weights(count);
     for (int y = 0; y < picture.height; ++y) {

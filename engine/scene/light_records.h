@@ -28,7 +28,9 @@ LightRecords packLights(const Scene& scene, const std::vector<bool>& emitters);
 float environmentProbability(const Scene& scene, const SceneNeeds& needs);
 
 // Texels and alias table. A constant becomes a small picture, so that sampling stays by solid angle. Weights
-// are the integrals of the bilinear radiance's luminance over each texel, times its solid angle.
-void packEnvironment(const Environment& environment, SceneRecords& out);
+// are the integrals of the bilinear radiance's luminance over each texel, times its solid angle. A picture of
+// more than maxTexels is reduced, with a warning.
+void packEnvironment(const Environment& environment, SceneRecords& out,
+                     uint64_t maxTexels = kMaxBindingBytes / sizeof(glm::uvec4));
 
 } // namespace irradia

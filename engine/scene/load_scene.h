@@ -12,8 +12,9 @@ namespace irradia {
 // counted.
 Scene loadScene(const std::filesystem::path& file);
 
-// An environment from "R,G,B" (a constant), or an .hdr or .exr picture. Throws Error as loadScene.
-Environment loadEnvironment(const std::string& text);
+// An environment from "R,G,B" (a constant), or a picture: FILE.hdr, FILE.exr or FILE.exr:LAYER. Warnings
+// of what had to be mended go to `notes`. Throws Error as loadScene.
+Environment loadEnvironment(const std::string& text, SceneNotes* notes = nullptr);
 
 // A camera file: {"camera": {"position", "look_at", "up", "vfov_deg"}, "env": path | [r,g,b] | null}.
 struct CameraFile {

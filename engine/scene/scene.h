@@ -63,13 +63,16 @@ struct Triangle {
     uint32_t material = 0;
 };
 
-// Pinhole camera; looks along `forward`; aspect comes from the image.
+// Pinhole or orthographic camera; looks along `forward`; aspect comes from the image.
 struct Camera {
     std::string name;
     glm::vec3 position{0.0f};
     glm::vec3 forward{0.0f, 0.0f, -1.0f}; // unit
     glm::vec3 up{0.0f, 1.0f, 0.0f};       // unit, orthogonal to forward
-    float verticalFov = 0.7f;             // radians
+    float verticalFov = 0.7f;             // radians, of a pinhole
+    float halfHeight = 0.0f;              // of an orthographic view, glTF's ymag; 0 = a pinhole
+
+    bool isOrthographic() const { return halfHeight > 0.0f; }
 };
 
 // Light from outside: an equirectangular picture (u = atan2(z, x) / 2 pi + 1/2, v = acos(y) / pi, first row =

@@ -134,6 +134,8 @@ SceneRecords packScene(const Scene& scene, const PlannedStates& states) {
     out.needs.environment = out.states.environment;
     if (out.needs.environment) packEnvironment(scene.environment, out);
     out.environmentProbability = environmentProbability(scene, out.needs);
+    if (!out.needs.environment && !out.needs.emitters)
+        out.warnings.push_back("the scene has no light: nothing in it emits, and no environment is given");
     requireBinding(out.geometry, "geometry");
     requireBinding(out.attributes, "texture coordinates");
     requireBinding(out.lights, "emissive triangles");

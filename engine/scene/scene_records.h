@@ -44,7 +44,7 @@ struct SceneRecords {
     SceneNeeds needs;
     float environmentProbability = 0.0f; // of a light sample going to the environment
     PlannedStates states;                // this one among them
-    std::vector<std::string> warnings;   // textures that were made smaller to fit
+    std::vector<std::string> warnings;   // pictures that were made smaller to fit, and what will surprise
 };
 
 // Most bytes one binding may hold (lavapipe's limit on storage buffers).

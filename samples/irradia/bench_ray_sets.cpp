@@ -17,7 +17,8 @@ private:
 };
 
 std::vector<BenchRay> primaryRays(const Camera& camera, glm::uvec2 size, Random& random) {
-    const float scale = std::tan(0.5f * camera.verticalFov);
+    const bool parallel = camera.isOrthographic();
+    const float scale = parallel ? camera.halfHeight : std::tan(0.5f * camera.verticalFov);
     const float aspect = static_cast<float>(size.x) / static_cast<float>(size.y);
     const glm::vec3 right = glm::normalize(glm::cross(camera.forward, camera.up));
     std::vector<BenchRay> rays;
@@ -25,9 +26,11 @@ std::vector<BenchRay> primaryRays(const Camera& camera, glm::uvec2 size, Random&
         for (uint32_t x = 0; x < size.x; ++x) {
             const float px = (static_cast<float>(x) + random.uniform()) / static_cast<float>(size.x);
             const float py = (static_cast<float>(y) + random.uniform()) / static_cast<float>(size.y);
-            const glm::vec3 direction =
-                camera.forward + (2 * px - 1) * scale * aspect * right + (1 - 2 * py) * scale * camera.up;
-            rays.push_back({camera.position, glm::normalize(direction)});
+            const glm::vec3 across = (2 * px - 1) * scale * aspect * right + (1 - 2 * py) * scale * camera.up;
+            if (parallel)
+                rays.push_back({camera.position + across, camera.forward});
+            else
+                rays.push_back({camera.position, glm::normalize(camera.forward + across)});
         }
     return rays;
 }

@@ -1,8 +1,8 @@
 #include "embree_scene.h"
 #include "engine/error.h"
+#include "engine/scene/embree.h"
 #include <atomic>
 #include <chrono>
-#include <embree3/rtcore.h>
 #include <thread>
 #include <vector>
 
@@ -57,21 +57,17 @@ EmbreeScene::~EmbreeScene() {
 }
 
 EmbreeHit EmbreeScene::closest(const BenchRay& ray) const {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
     RTCRayHit hit{};
     hit.ray = toRtc(ray);
     hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(state_->scene, &context, &hit);
+    embreeIntersect(state_->scene, hit);
     if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
     return {hit.ray.tfar, hit.hit.primID, {hit.hit.Ng_x, hit.hit.Ng_y, hit.hit.Ng_z}};
 }
 
 bool EmbreeScene::isOccluded(const BenchRay& ray) const {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
     RTCRay shadow = toRtc(ray);
-    rtcOccluded1(state_->scene, &context, &shadow);
+    embreeOccluded(state_->scene, shadow);
     return shadow.tfar < 0.0f;
 }
 

@@ -48,15 +48,26 @@ std::vector<glm::vec3> loadReference(const View& view, const std::string& file, 
     return pixels;
 }
 
-void reportScene(const Scene& scene, const std::vector<std::string>& packingWarnings) {
-    logLine("scene {}: {} triangles, {} materials, {} pictures", scene.name, scene.triangles.size(),
-            scene.materials.size(), scene.images.size());
+std::vector<std::string> sceneWarnings(const Scene& scene, const std::vector<std::string>& packingWarnings) {
+    std::vector<std::string> warnings;
     const SceneNotes& notes = scene.notes;
     if (notes.nonFiniteTriangles + notes.degenerateTriangles > 0)
-        logLine("warning: dropped {} degenerate and {} non-finite triangles", notes.degenerateTriangles,
-                notes.nonFiniteTriangles);
-    for (const std::string& warning : notes.warnings) logLine("warning: {}", warning);
-    for (const std::string& warning : packingWarnings) logLine("warning: {}", warning);
+        warnings.push_back(fmt::format("dropped {} degenerate and {} non-finite triangles",
+                                       notes.degenerateTriangles, notes.nonFiniteTriangles));
+    warnings.insert(warnings.end(), notes.warnings.begin(), notes.warnings.end());
+    warnings.insert(warnings.end(), packingWarnings.begin(), packingWarnings.end());
+    return warnings;
+}
+
+void reportScene(const RenderRequest& request, const Scene& scene,
+                 const std::vector<std::string>& packingWarnings) {
+    logLine("scene {}: {} triangles, {} materials, {} pictures", scene.name, scene.triangles.size(),
+            scene.materials.size(), scene.images.size());
+    const std::vector<std::string> warnings = sceneWarnings(scene, packingWarnings);
+    if (request.strict && !warnings.empty())
+        fail(ExitCode::BadData, "{}: --strict allows no warning, and there {} {}: {}", request.scene,
+             warnings.size() == 1 ? "is" : "are", warnings.size(), fmt::join(warnings, "; "));
+    for (const std::string& warning : warnings) logLine("warning: {}", warning);
 }
 
 } // namespace
@@ -64,7 +75,10 @@ void reportScene(const Scene& scene, const std::vector<std::string>& packingWarn
 void addRequestOptions(CLI::App& command, RenderRequest& request) {
     command.add_option("scene", request.scene, "glTF scene, .gltf or .glb")->required();
     command.add_option("--camera", request.camera, "Camera by name, index or .json file")->group("Scene");
-    command.add_option("--env", request.environment, "Environment: .exr, .hdr or R,G,B")->group("Scene");
+    command
+        .add_option("--env", request.environment, "Environment: FILE.exr, FILE.exr:LAYER, FILE.hdr or R,G,B")
+        ->group("Scene");
+    command.add_flag("--strict", request.strict, "Warnings about the scene are errors")->group("Scene");
     command
         .add_option(
             "--method", request.method,
@@ -125,7 +139,7 @@ RenderSession::RenderSession(const RenderRequest& request)
     const CameraFile chosen = chooseCamera(scene_, request.camera);
     camera_ = chosen.camera;
     environment_ = request.environment.empty() ? chosen.environment : request.environment;
-    if (!environment_.empty()) scene_.environment = loadEnvironment(environment_);
+    if (!environment_.empty()) scene_.environment = loadEnvironment(environment_, &scene_.notes);
 
     if (!request.changes.empty()) changes_ = ScriptedChanges(request.changes, scene_);
     if (request.endFrame) changes_.requireBefore(*request.endFrame);
@@ -133,7 +147,7 @@ RenderSession::RenderSession(const RenderRequest& request)
     SceneRecords records = packScene(scene_, changes_.states(scene_));
     if (options.config.uniformShare > 0.0f) packAreaTable(records);
     if (!request.heading.empty()) logLine("{}", request.heading);
-    reportScene(scene_, records.warnings);
+    reportScene(request_, scene_, records.warnings);
     stopIfInterrupted();
     const Bvh bvh = buildBvh(scene_);
     stopIfInterrupted();

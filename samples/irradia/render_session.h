@@ -32,6 +32,7 @@ struct RenderRequest {
     uint32_t firstFrame = 0;
     std::optional<uint32_t> endFrame; // number after the last frame's, where it is known beforehand
     bool surfaces = false;
+    bool strict = false; // warnings about the scene are errors
     DeviceOptions device;
     std::string records = "auto"; // form of the kernels
     std::string heading;          // of the log, said when the scene is there

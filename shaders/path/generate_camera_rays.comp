@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// One camera ray per path of the wave: pinhole, box pixel filter.
+// One camera ray per path of the wave: pinhole or orthographic, box pixel filter.
 #include "lib/kernel.glsl"
 #include "lib/rng.glsl"
 #include "shared/path.h"
@@ -20,9 +20,12 @@ void main() {
     uint x = pixel - y * params.width;
     vec4 u = unitFloats(randomBits(pixel, params.sampleIndex, kCameraBlock, params.seed));
     vec2 ndc = vec2(2.0 * (float(x) + u.x) / float(params.width) - 1.0, 1.0 - 2.0 * (float(y) + u.y) / float(params.height));
-    vec3 direction = normalize(params.forward.xyz + ndc.x * params.right.xyz + ndc.y * params.up.xyz);
+    vec3 across = ndc.x * params.right.xyz + ndc.y * params.up.xyz;
+    bool parallel = params.isOrthographic != 0u;
+    vec3 origin = parallel ? params.position.xyz + across : params.position.xyz;
+    vec3 direction = parallel ? params.forward.xyz : normalize(params.forward.xyz + across);
 
-    storeRecord(rays, path * kRayRecords, uvec4(floatBitsToUint(params.position.xyz), path));
+    storeRecord(rays, path * kRayRecords, uvec4(floatBitsToUint(origin), path));
     storeRecord(rays, path * kRayRecords + 1u, uvec4(floatBitsToUint(direction), 0u));
     storeRecord(rays, path * kRayRecords + 2u, uvec4(floatBitsToUint(vec3(1.0)), 0u));
     if (params.firstSample != 0u) radiance[path] = vec4(0.0);

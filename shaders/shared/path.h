@@ -23,16 +23,16 @@ SHARED_CONST uint kViewTrainingDensity = 3u; // vertices recorded for training
 struct CameraParams {
     vec4 position; // xyz; w unused
     vec4 forward;  // unit
-    vec4 right;    // times tan(vfov / 2) * aspect
-    vec4 up;       // times tan(vfov / 2)
+    vec4 right;    // times tan(vfov / 2) * aspect, or half the view's width if orthographic
+    vec4 up;       // times tan(vfov / 2), or half the view's height
     uint width;
     uint height;
     uint firstPixel;
     uint pathCount;
     uint sampleIndex;
     uint seed;
-    uint firstSample; // 1 = radiance starts from zero, 0 = adds to what is there
-    uint pad;
+    uint firstSample;    // 1 = radiance starts from zero, 0 = adds to what is there
+    uint isOrthographic; // 1 = rays are parallel, 0 = they leave one point
 };
 
 // Paths that no pixel sees: they start at points of the scene's surfaces. Their numbers take the place of pixels, beyond

@@ -67,11 +67,12 @@ std::vector<uint8_t> makeJpeg(JpegForm form, int width, int height, std::vector<
     jpeg_mem_dest(&encoder, &out, &size);
     encoder.image_width = static_cast<JDIMENSION>(width);
     encoder.image_height = static_cast<JDIMENSION>(height);
-    encoder.input_components = form == JpegForm::Grey ? 1 : form == JpegForm::Cmyk ? 4 : 3;
-    encoder.in_color_space = form == JpegForm::Grey   ? JCS_GRAYSCALE
-                             : form == JpegForm::Cmyk ? JCS_CMYK
-                                                      : JCS_RGB;
+    const bool inks = form == JpegForm::Cmyk || form == JpegForm::Ycck || form == JpegForm::CmykPlain;
+    encoder.input_components = form == JpegForm::Grey ? 1 : inks ? 4 : 3;
+    encoder.in_color_space = form == JpegForm::Grey ? JCS_GRAYSCALE : inks ? JCS_CMYK : JCS_RGB;
     jpeg_set_defaults(&encoder);
+    if (form == JpegForm::Ycck) jpeg_set_colorspace(&encoder, JCS_YCCK);
+    if (form == JpegForm::CmykPlain) encoder.write_Adobe_marker = FALSE;
     jpeg_set_quality(&encoder, 100, TRUE);
     encoder.comp_info[0].h_samp_factor = encoder.comp_info[0].v_samp_factor = 1;
     if (form == JpegForm::Progressive) jpeg_simple_progression(&encoder);

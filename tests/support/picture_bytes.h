@@ -19,7 +19,7 @@ struct PngForm {
 // `rows` as PNG stores them: packed bits, 16-bit values with the high byte first.
 std::vector<uint8_t> makePng(const PngForm& form, std::vector<uint8_t> rows);
 
-enum class JpegForm { Grey, Colour, Progressive, Cmyk };
+enum class JpegForm { Grey, Colour, Progressive, Cmyk, Ycck, CmykPlain }; // CmykPlain: no Adobe marker
 // Interleaved 8-bit samples: 1, 3, 3 or 4 a pixel. Quality 100, no chroma subsampling.
 std::vector<uint8_t> makeJpeg(JpegForm form, int width, int height, std::vector<uint8_t> samples);
 

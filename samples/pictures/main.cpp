@@ -1,6 +1,6 @@
 // pictures: puts EXR pictures into one, side by side for the eye or as their mean for a reference.
-#include "engine/error.h"
 #include "samples/pictures/pictures.h"
+#include "samples/support/outputs.h"
 #include "samples/support/program.h"
 
 namespace irradia {
@@ -18,23 +18,19 @@ std::vector<LayeredImage> readAll(const std::vector<std::string>& files) {
     return pictures;
 }
 
-// Refuses what would be lost, or lost time, before anything is read.
-void requireOutput(const Request& request, const std::string& ending) {
-    if (!request.output.ends_with(ending))
-        fail(ExitCode::Usage, "-o {}: the name must end in {}", request.output, ending);
-    for (const std::string& file : request.pictures) {
-        std::error_code absent;
-        if (std::filesystem::equivalent(file, request.output, absent))
-            fail(ExitCode::Usage, "-o {} would replace a picture that is read", request.output);
-    }
-    requireWritable(request.output);
+void check(const Request& request, const char* ending) {
+    const NamedFile output{"-o", request.output};
+    requireEnding(output, {ending});
+    std::vector<NamedFile> inputs;
+    for (const std::string& file : request.pictures) inputs.push_back({"a picture", file});
+    checkOutputs({output}, inputs);
 }
 
 CLI::App* addVerb(CLI::App& program, const char* name, const char* what, const char* output,
                   Request& request) {
     CLI::App* verb = program.add_subcommand(name, what);
     verb->add_option("pictures", request.pictures, "EXR files of one size")->required();
-    verb->add_option("-o,--output", request.output, output)->required();
+    addOutput(*verb, "-o,--output", request.output, output)->required();
     return verb;
 }
 
@@ -44,7 +40,7 @@ void addRow(CLI::App& program, Request& request) {
         ->check(CLI::Range(1, 16))
         ->capture_default_str();
     row->callback([&request] {
-        requireOutput(request, ".png");
+        check(request, ".png");
         writePng(request.output, pictureRow(readAll(request.pictures), request.scale));
     });
 }
@@ -53,7 +49,7 @@ void addMean(CLI::App& program, Request& request) {
     CLI::App* mean = addVerb(program, "mean", "The mean of R, G and B, each picture counting alike",
                              "EXR file, half floats", request);
     mean->callback([&request] {
-        requireOutput(request, ".exr");
+        check(request, ".exr");
         writeHalfExr(request.output, meanPicture(readAll(request.pictures)));
     });
 }

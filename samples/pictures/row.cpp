@@ -1,3 +1,4 @@
+#include "engine/image/display.h"
 #include "samples/pictures/pictures.h"
 #include "samples/pictures/same_size.h"
 #include <algorithm>

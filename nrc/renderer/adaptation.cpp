@@ -28,7 +28,7 @@ void Adaptation::observe(float meanPrediction, float meanTarget) {
     disagreement_ = config_.smoothing * disagreement_ + (1.0f - config_.smoothing) * now;
     observed_ = config_.smoothing * observed_ + (1.0f - config_.smoothing);
     const float beyond = std::abs(disagreement_ / observed_) - config_.threshold;
-    hasLearned_ = hasLearned_ || (++frames_ >= kFirstFrames && beyond <= 0.0f && meanTarget > 0.0f);
+    hasLearned_ = hasLearned_ || (++frames_ >= kFirstFrames && beyond <= 0.0f);
     const float range = std::max(config_.full - config_.threshold, 1e-6f);
     urgency_ = std::max(std::clamp(beyond / range, 0.0f, 1.0f), config_.calming * urgency_);
     if (urgency_ < 0.01f) urgency_ = 0.0f; // exactly as configured, at last

@@ -39,8 +39,7 @@ public:
     // Of suffixes that end by roulette alone, in the next frame: at least `configured`; none if that is none.
     float unbiasedShare(float configured) const;
     float urgency() const { return urgency_; } // 0 to 1
-    // Whether predictions and targets have agreed once: from then on the cache is worth showing. Of light that
-    // no path has found there is nothing to learn.
+    // Whether predictions and targets have agreed once: from then on the cache is worth showing.
     bool hasLearned() const { return hasLearned_; }
 
 private:

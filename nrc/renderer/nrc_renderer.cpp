@@ -196,11 +196,12 @@ CachePaths NrcRenderer::bound(gpu::CacheRule rule, const RowRange& training) con
             rule};
 }
 
-// A cache that knows nothing is not shown, unless it is what is looked at, was asked for at a given vertex, or
+// A cache that knows nothing is not shown (of light that no path has found there is nothing to know), unless it is what is looked at, was asked for at a given vertex, or
 // has its error made up for by paths that go on.
 bool NrcRenderer::isShown() const {
     const NrcConfig& config = options_.config;
-    return isWarmingUp_ || adaptation_.hasLearned() || options_.paths.view != gpu::kViewPicture ||
+    const bool knows = adaptation_.hasLearned() && counts_.state.metLight != 0;
+    return isWarmingUp_ || knows || options_.paths.view != gpu::kViewPicture ||
            config.endDepth != gpu::kNoDepth || config.spread < 0 || config.residualShare > 0;
 }
 

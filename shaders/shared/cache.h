@@ -84,8 +84,8 @@ struct CacheState {
     float brightness;      // running mean of frameBrightness
     float frameBrightness; // of the last frame's targets: the square of the mean square root of their luminance
     float largestTarget;   // of the last frame, luminance
-    uint unused0;
-    uint unused1;
+    uint metLight;         // paths that have gathered light themselves, since the start: 1 if any
+    uint unused;
 };
 
 struct RescaleParams {

@@ -1,4 +1,6 @@
 #include "samples/pictures/pictures.h"
+
+#include "engine/image/display.h"
 #include "samples/pictures/same_size.h"
 #include <algorithm>
 

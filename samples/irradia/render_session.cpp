@@ -69,6 +69,12 @@ void reportScene(const RenderRequest& request, const Scene& scene,
     for (const std::string& warning : warnings) logLine("warning: {}", warning);
 }
 
+// Of FILE.exr:LAYER the file.
+std::string fileOf(const std::string& environment) {
+    const size_t layer = environment.rfind(".exr:");
+    return layer == std::string::npos ? environment : environment.substr(0, layer + 4);
+}
+
 } // namespace
 
 void addRequestOptions(CLI::App& command, RenderRequest& request) {
@@ -131,7 +137,7 @@ void addRequestOptions(CLI::App& command, RenderRequest& request) {
 std::vector<NamedFile> inputFiles(const RenderRequest& request) {
     return {{"the scene", request.scene},
             {"the camera", request.camera},
-            {"the environment", request.environment},
+            {"the environment", fileOf(request.environment)},
             {"the preset", request.preset},
             {"the network", request.network},
             {"the list of changes", request.changes},
@@ -172,7 +178,7 @@ RenderSession::RenderSession(const RenderRequest& request)
 
 std::vector<NamedFile> RenderSession::inputs() const {
     std::vector<NamedFile> files = inputFiles(request_);
-    files.push_back({"the environment", environment_});
+    files.push_back({"the environment", fileOf(environment_)});
     for (const std::filesystem::path& file : scene_.files)
         files.push_back({"a file of the scene", file.string()});
     return files;

@@ -1,5 +1,6 @@
 // pictures: puts EXR pictures into one, side by side for the eye or as their mean for a reference.
 #include "samples/pictures/pictures.h"
+#include "samples/support/numbers.h"
 #include "samples/support/outputs.h"
 #include "samples/support/program.h"
 
@@ -9,7 +10,7 @@ namespace {
 struct Request {
     std::vector<std::string> pictures;
     std::string output;
-    int scale = 1;
+    uint32_t scale = 1;
 };
 
 std::vector<LayeredImage> readAll(const std::vector<std::string>& files) {
@@ -18,11 +19,12 @@ std::vector<LayeredImage> readAll(const std::vector<std::string>& files) {
     return pictures;
 }
 
-void check(const Request& request, const char* ending) {
+// Refuses what would be lost, or lost time, before anything is read.
+void checkOutput(const Request& request, const char* ending) {
     const NamedFile output{"-o", request.output};
     requireEnding(output, {ending});
     std::vector<NamedFile> inputs;
-    for (const std::string& file : request.pictures) inputs.push_back({"a picture", file});
+    for (const std::string& file : request.pictures) inputs.push_back({"a picture that is read", file});
     checkOutputs({output}, inputs);
 }
 
@@ -36,12 +38,11 @@ CLI::App* addVerb(CLI::App& program, const char* name, const char* what, const c
 
 void addRow(CLI::App& program, Request& request) {
     CLI::App* row = addVerb(program, "row", "Side by side, as a screen shows them", "PNG file", request);
-    row->add_option("--scale", request.scale, "Pixels become so many wide and high")
-        ->check(CLI::Range(1, 16))
+    addWhole(*row, "--scale", request.scale, "Pixels become so many wide and high", 1, 16)
         ->capture_default_str();
     row->callback([&request] {
-        check(request, ".png");
-        writePng(request.output, pictureRow(readAll(request.pictures), request.scale));
+        checkOutput(request, ".png");
+        writePng(request.output, pictureRow(readAll(request.pictures), static_cast<int>(request.scale)));
     });
 }
 
@@ -49,7 +50,7 @@ void addMean(CLI::App& program, Request& request) {
     CLI::App* mean = addVerb(program, "mean", "The mean of R, G and B, each picture counting alike",
                              "EXR file, half floats", request);
     mean->callback([&request] {
-        check(request, ".exr");
+        checkOutput(request, ".exr");
         writeHalfExr(request.output, meanPicture(readAll(request.pictures)));
     });
 }

@@ -153,10 +153,6 @@ RenderSession::RenderSession(const RenderRequest& request)
     request_.device.records = parseRecords(request.records);
     const NrcOptions options = rendererOptions();
     device_ = std::make_unique<Device>(request_.device);
-    if (!request.heading.empty()) logLine("{}", request.heading);
-    logLine("device {} ({}), subgroups of {}, {} records", device_->description().name,
-            device_->description().driver, device_->subgroupSize(),
-            device_->texelRecords() ? "texel" : "storage");
     requireRoomForPicture(*device_, options, hasCache());
 
     scene_ = loadScene(request.scene);
@@ -169,7 +165,11 @@ RenderSession::RenderSession(const RenderRequest& request)
     if (request.endFrame) changes_.requireBefore(*request.endFrame);
     SceneRecords records = packScene(scene_, changes_.states(scene_));
     if (options.config.uniformShare > 0.0f) packAreaTable(records);
+    if (!request.heading.empty()) logLine("{}", request.heading);
     reportScene(request_, scene_, records.warnings);
+    logLine("device {} ({}), subgroups of {}, {} records", device_->description().name,
+            device_->description().driver, device_->subgroupSize(),
+            device_->texelRecords() ? "texel" : "storage");
     stopIfInterrupted();
     const Bvh bvh = buildBvh(scene_);
     stopIfInterrupted();

@@ -26,8 +26,8 @@ FeatureGrid makeFeatureGrid(const EncodingConfig& config, uint64_t first,
 
 // The grids of an encoding, one after the other.
 struct FeatureGrids {
-    std::vector<FeatureGrid> grids; // of the layout's slices that are grids
-    uint64_t features = 0;          // of all
+    std::vector<FeatureGrid> grids;        // of the layout's slices that are grids
+    uint64_t features = 0;                 // of all
     std::optional<uint32_t> storedCorners; // CRC-32 of which corners the sparse ones store
 };
 

@@ -61,9 +61,9 @@ public:
                   const BufferRange* inputGradient) const;
 
     // Sums of layer gradient x activation over rows, in the chunks of a batch of `batchCapacity` rows
-    // (nrc/batch_rows.h): `rows` may be a part of the batch that is whole chunks of it. Then, of all parts: gradients
-    // (weightCount() floats) = the chunks' sums in order, times the float at word `scaleWord` of `scale`. So
-    // the result depends neither on threads nor on the parts.
+    // (nrc/batch_rows.h): `rows` may be a part of the batch that is whole chunks of it. Then, of all parts:
+    // gradients (weightCount() floats) = the chunks' sums in order, times the float at word `scaleWord` of
+    // `scale`. So the result depends neither on threads nor on the parts.
     uint64_t partialBytes(uint32_t batchCapacity) const;
     void weightGradient(FrameGraph& graph, const RowCount& rows, uint32_t batchCapacity, BufferRange encoded,
                         BufferRange activations, BufferRange layerGradients, BufferRange partials) const;

@@ -75,8 +75,8 @@ public:
     void train(FrameGraph& graph, const Records& records, uint32_t batches = 1,
                const TrainingEffort& effort = {});
 
-    // results: rows of ceil(outputs / 4) single-precision quads. inputs and results hold rows.capacity rows at
-    // least.
+    // results: rows of ceil(outputs / 4) single-precision quads. inputs and results hold rows.capacity rows
+    // at least.
     void infer(FrameGraph& graph, const RowCount& rows, BufferRange inputs, BufferRange results,
                Weights weights = Weights::Ema);
 

@@ -21,7 +21,8 @@ uint64_t largestRow(const NetworkShape& shape, uint32_t inputQuads, uint32_t enc
 uint32_t boundRows(const VkPhysicalDeviceLimits& limits, uint64_t rowBytes, uint32_t quadBytes) {
     const uint64_t texels = uint64_t{limits.maxTexelBufferElements} * quadBytes;
     const uint64_t bytes = std::min<uint64_t>(limits.maxStorageBufferRange, texels);
-    const uint64_t rows = std::min<uint64_t>(bytes / rowBytes, UINT32_MAX) / gpu::kRowPadding * gpu::kRowPadding;
+    const uint64_t rows =
+        std::min<uint64_t>(bytes / rowBytes, UINT32_MAX) / gpu::kRowPadding * gpu::kRowPadding;
     if (rows == 0)
         fail(ExitCode::OutOfMemory, "network: {} rows of {} bytes outgrow a binding of {} bytes",
              gpu::kRowPadding, rowBytes, bytes);
@@ -73,12 +74,14 @@ std::vector<Device::PlannedBuffer> TrainerSizes::planned() const {
         {"encoded queries", encodedBytes(inferRows)},
     };
     // Values, moments and averages, and gradients: floats of weights, 64-bit sums of features.
-    for (const char* name : {"weights", "weights' gradients", "weights' first moments", "weights' second moments",
-                             "weights' averages"})
+    for (const char* name : {"weights", "weights' gradients", "weights' first moments",
+                             "weights' second moments", "weights' averages"})
         list.push_back({name, shape.weights() * 4});
     if (features > 0)
-        for (const auto& [name, bytes] : {std::pair{"features", 4u}, {"features' gradients", 8u},
-                                          {"features' first moments", 4u}, {"features' second moments", 4u},
+        for (const auto& [name, bytes] : {std::pair{"features", 4u},
+                                          {"features' gradients", 8u},
+                                          {"features' first moments", 4u},
+                                          {"features' second moments", 4u},
                                           {"features' averages", 4u}})
             list.push_back({name, features * bytes});
     return list;

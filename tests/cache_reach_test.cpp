@@ -199,7 +199,8 @@ TEST_CASE("light of many bounces comes by the unbiased suffixes") {
         options.config.minRecords = 1024;
         options.config.unbiasedShare = unbiasedShare;
         CachedScene cached(device(), scene, options);
-        cached.renderer().setWarmingUp(true); // frames that are looked at would train as a path tracer at first
+        cached.renderer().setWarmingUp(
+            true); // frames that are looked at would train as a path tracer at first
         cached.learn(scene.cameras[0], 90);
         return meanLuminance(cached.view(scene.cameras[0], 8)) / truth;
     };

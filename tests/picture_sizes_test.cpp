@@ -1,6 +1,6 @@
-// Pictures of any size: what each method will allocate fits bindings of 128 MiB, and pictures of a dozen sizes
-// are right. In the closed Lambert sphere of albedo 1/2 and emission 1/2 a path tracer of B bounces has the
-// mean 1 - 2^-(B + 2) in every pixel, and a cache that has learned 1.
+// Pictures of any size: what each method will allocate fits bindings of 128 MiB, and pictures of a dozen
+// sizes are right. In the closed Lambert sphere of albedo 1/2 and emission 1/2 a path tracer of B bounces has
+// the mean 1 - 2^-(B + 2) in every pixel, and a cache that has learned 1.
 #include "engine/error.h"
 #include "engine/scene/load_scene.h"
 #include "nrc/renderer/picture_memory.h"
@@ -37,7 +37,8 @@ NrcOptions optionsOf(uint32_t width, uint32_t height, const std::string& preset 
 std::vector<Device::PlannedBuffer> planOf(bool isCpu, const NrcOptions& options, bool hasCache) {
     VkPhysicalDeviceLimits limits = device().limits();
     limits.maxStorageBufferRange = kBinding;
-    return hasCache ? NrcRenderer::planned(isCpu, limits, options) : PathBuffers::planned(isCpu, options.paths);
+    return hasCache ? NrcRenderer::planned(isCpu, limits, options)
+                    : PathBuffers::planned(isCpu, options.paths);
 }
 
 uint64_t sumOf(const std::vector<Device::PlannedBuffer>& plan) {
@@ -67,7 +68,8 @@ double meanOf(const FilmImage& film) {
 
 } // namespace
 
-TEST_CASE("what is bound at once fits 128 MiB at 500 random sizes, by each method and preset, on CPUs and GPUs") {
+TEST_CASE(
+    "what is bound at once fits 128 MiB at 500 random sizes, by each method and preset, on CPUs and GPUs") {
     Random random(7);
     const auto presets = nrcPresetNames();
     for (uint32_t i = 0; i < 500; ++i) {
@@ -79,8 +81,9 @@ TEST_CASE("what is bound at once fits 128 MiB at 500 random sizes, by each metho
         for (const bool isCpu : {true, false})
             for (const bool hasCache : {true, false})
                 for (const Device::PlannedBuffer& buffer : planOf(isCpu, options, hasCache)) {
-                    INFO(options.paths.width << "x" << options.paths.height << ", " << presets[i % presets.size()]
-                                             << (isCpu ? ", CPU: " : ", GPU: ") << buffer.name);
+                    INFO(options.paths.width << "x" << options.paths.height << ", "
+                                             << presets[i % presets.size()] << (isCpu ? ", CPU: " : ", GPU: ")
+                                             << buffer.name);
                     CHECK(buffer.bytes > 0);
                     CHECK(buffer.largestBinding() <= kBinding);
                 }
@@ -95,8 +98,8 @@ TEST_CASE("the plan is what is allocated") {
             const uint64_t before = device().memoryUsed();
             const NrcRenderer renderer(device(), furnaceOnDevice(), sceneBounds(furnace()), options);
             const auto allocated = static_cast<double>(device().memoryUsed() - before);
-            const auto planned =
-                static_cast<double>(sumOf(NrcRenderer::planned(device().isCpu(), device().limits(), options)));
+            const auto planned = static_cast<double>(
+                sumOf(NrcRenderer::planned(device().isCpu(), device().limits(), options)));
             INFO(width << "x" << height << ", " << preset << ": " << planned << " planned, " << allocated);
             // Each of some 60 buffers is rounded up, and those of a few records are left out.
             CHECK(std::abs(allocated - planned) < 60 * 1024.0);
@@ -121,8 +124,9 @@ TEST_CASE("a picture that does not fit is refused with the largest of its shape 
     REQUIRE(std::sscanf(sentence.c_str() + at, "fits is %ux%u", &width, &height) == 2);
     CHECK(std::abs(width - 2.0 * height) <= 2.0);
     requireRoomForPicture(little, optionsOf(width, height), true);
-    expectError(ExitCode::OutOfMemory, "",
-                [&] { requireRoomForPicture(little, optionsOf(width + width / 50, height + height / 50), true); });
+    expectError(ExitCode::OutOfMemory, "", [&] {
+        requireRoomForPicture(little, optionsOf(width + width / 50, height + height / 50), true);
+    });
 }
 
 // Two frames: the second is shown by a cache that has learned nothing yet, and goes on as the path tracer's.
@@ -162,13 +166,14 @@ TEST_CASE("pictures of a dozen sizes are right by path tracing and with a cache"
         CHECK(std::abs(difference) < 3.0 / std::sqrt(paths));
         if (!c.surfaces) continue;
         REQUIRE(film.depth.size() == film.mean.size());
-        CHECK(std::ranges::all_of(film.albedo, [](const glm::vec3& a) { return std::abs(a.r - 0.5f) < 1e-3f; }));
+        CHECK(std::ranges::all_of(film.albedo,
+                                  [](const glm::vec3& a) { return std::abs(a.r - 0.5f) < 1e-3f; }));
     }
     CHECK(device().validationMessages() == 0);
 }
 
-// What a cache learns from is 4,096 records a frame, however few pixels there are: a picture of one pixel whose
-// cache is asked at the first hit, and with every path ending by its spread.
+// What a cache learns from is 4,096 records a frame, however few pixels there are: a picture of one pixel
+// whose cache is asked at the first hit, and with every path ending by its spread.
 TEST_CASE("a cache that has learned from tiny pictures gives 1 in the furnace") {
     for (const auto& [width, height] : {std::pair{1u, 1u}, {7u, 3u}}) {
         NrcOptions options = optionsOf(width, height);

@@ -1,5 +1,5 @@
-// How a frame's paths are cut into waves: each sample of each pixel once, in order, aligned, and no wave larger
-// than what its buffers were made for.
+// How a frame's paths are cut into waves: each sample of each pixel once, in order, aligned, and no wave
+// larger than what its buffers were made for.
 #include "engine/path/wave.h"
 #include "tests/reference/random.h"
 #include <catch2/catch_test_macros.hpp>

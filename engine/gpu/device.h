@@ -53,7 +53,7 @@ public:
 
     const DeviceDescription& description() const;
     bool isCpu() const;
-    bool sharesMemory() const; // with the machine: a CPU, an integrated GPU
+    bool sharesMemory() const;           // with the machine: a CPU, an integrated GPU
     uint32_t subgroupSize() const;       // the size kernels are pinned to
     bool canPinSubgroupSize() const;     // VK_EXT_subgroup_size_control (core in 1.3)
     uint32_t maxPinnedWorkgroup() const; // invocations of a workgroup whose subgroups are pinned

@@ -7,8 +7,8 @@
 namespace irradia {
 namespace {
 
-// Of an execution, but for those that follow until the next cut. Each has a descriptor set, for which lavapipe
-// maps memory, and a process has 65,530 mappings.
+// Of an execution, but for those that follow until the next cut. Each has a descriptor set, for which
+// lavapipe maps memory, and a process has 65,530 mappings.
 constexpr size_t kMostPasses = 2048;
 
 void checkTransfer(const char* verb, const BufferRange& range) {

@@ -1,4 +1,5 @@
-// Waves: how a frame's paths are cut into groups that are in flight together. Pure; the cut changes no result.
+// Waves: how a frame's paths are cut into groups that are in flight together. Pure; the cut changes no
+// result.
 #pragma once
 
 #include "shared/path.h"

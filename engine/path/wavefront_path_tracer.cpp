@@ -127,8 +127,10 @@ void WavefrontPathTracer::addToFilm(const Wave& wave) {
     constexpr uint64_t kBytes = gpu::kFilmVectors * 16;
     // Of a frame's samples of a pixel the first alone may train.
     const uint32_t samples = options_.view == gpu::kViewTrainingDensity ? 1 : options_.samplesPerFrame;
-    const uint32_t part = (wave.firstSample == 0 ? gpu::kFirstSamples : 0u) | (wave.isLast ? gpu::kLastSamples : 0u);
-    const gpu::FilmParams film{wave.pixels, wave.log2Samples, part, frames_, 1.0f / static_cast<float>(samples)};
+    const uint32_t part =
+        (wave.firstSample == 0 ? gpu::kFirstSamples : 0u) | (wave.isLast ? gpu::kLastSamples : 0u);
+    const gpu::FilmParams film{wave.pixels, wave.log2Samples, part, frames_,
+                               1.0f / static_cast<float>(samples)};
     graph_.pass(kernels_.updateFilm)
         .read(buffers_.radiance)
         .readWrite(buffers_.sampleSums)
@@ -181,8 +183,14 @@ void WavefrontPathTracer::traceWave(const Camera& camera, const Wave& wave, uint
 void WavefrontPathTracer::traceSurfaceWave(const Wave& wave, uint32_t frame, float distance,
                                            const CachePaths& cache) {
     if (!scene_.areaTable) fail(ExitCode::Internal, "the scene was packed without its area table");
-    const gpu::SurfacePathParams params{wave.firstPixel, wave.paths(), sampleIndex(wave, frame), options_.seed,
-                                        scene_.triangles, distance,     0,                        0};
+    const gpu::SurfacePathParams params{wave.firstPixel,
+                                        wave.paths(),
+                                        sampleIndex(wave, frame),
+                                        options_.seed,
+                                        scene_.triangles,
+                                        distance,
+                                        0,
+                                        0};
     Pass pass = graph_.pass(kernels_.generateSurfaceRays);
     pass.write(buffers_.rays[0]).write(buffers_.hits).readWrite(buffers_.counters);
     readSurfaces(pass, scene_).read(scene_.areaTable).push(params).dispatch(wave.paths());
@@ -248,7 +256,11 @@ void WavefrontPathTracer::meetSurfaces(const gpu::BounceParams& params, const Ca
         .dispatchIndirect(BufferRange(buffers_.arguments, gpu::kTraceArguments * 4, 12));
     if (scene_.needs.environment) {
         Pass pass = graph_.pass(kernels_.handleEscapedRays);
-        pass.read(rays).read(buffers_.hits).read(buffers_.counters).readWrite(buffers_.radiance).read(scene_.environment);
+        pass.read(rays)
+            .read(buffers_.hits)
+            .read(buffers_.counters)
+            .readWrite(buffers_.radiance)
+            .read(scene_.environment);
         if (cache) gatherForTraining(pass, buffers_.pathStates, *cache);
         pass.push(params).dispatchIndirect(itemArguments);
     }
@@ -286,7 +298,10 @@ void WavefrontPathTracer::scatter(const gpu::BounceParams& params, const CachePa
 
 void WavefrontPathTracer::addDirectLight(const CachePaths* cache) {
     Pass pass = graph_.pass(kernels_.addDirectLight);
-    pass.read(buffers_.shadowRays).read(buffers_.visibility).read(buffers_.counters).readWrite(buffers_.radiance);
+    pass.read(buffers_.shadowRays)
+        .read(buffers_.visibility)
+        .read(buffers_.counters)
+        .readWrite(buffers_.radiance);
     if (cache) gatherForTraining(pass, buffers_.pathStates, *cache);
     pass.dispatchIndirect(BufferRange(buffers_.arguments, gpu::kItemArguments * 4, 12));
 }

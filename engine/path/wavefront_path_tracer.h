@@ -26,13 +26,13 @@ public:
     Waves waves() const;
     void traceWave(const Camera& camera, const Wave& wave, uint32_t frame, const CachePaths* cache = nullptr);
     void addToFilm(const Wave& wave);
-    // `paths` paths that are not seen and only train: through the camera's pixels, or from points uniform over
-    // the scene's surfaces (whose area table is packed) as seen from `distance` away.
+    // `paths` paths that are not seen and only train: through the camera's pixels, or from points uniform
+    // over the scene's surfaces (whose area table is packed) as seen from `distance` away.
     Waves trainingWaves(uint32_t paths) const;
     Waves surfaceWaves(uint32_t paths) const;
     void traceSurfaceWave(const Wave& wave, uint32_t frame, float distance, const CachePaths& cache);
     void endFrame();
-    void forgetFilm();                                          // the next frame is the film's first
+    void forgetFilm();                                           // the next frame is the film's first
     const Buffer& radiance() const { return buffers_.radiance; } // vec4 per path of the wave
     uint32_t largestWave() const { return waveSize_; }
     // Number of the last ray of a path, which only meets emission.

@@ -1,6 +1,7 @@
 // A scene as plain data: what the loader produces, the GPU upload and the CPU reference consume.
 // World space throughout, less Scene::origin: nodes and instances are already applied. Units are those of the
-// file; radiance is W/(sr m^2) as glTF's emissiveFactor x emissiveStrength states it; colours are linear Rec. 709.
+// file; radiance is W/(sr m^2) as glTF's emissiveFactor x emissiveStrength states it; colours are linear Rec.
+// 709.
 #pragma once
 
 #include <cstdint>

@@ -7,9 +7,9 @@ namespace irradia {
 namespace {
 
 constexpr uint32_t kFirstFrames = 8; // before which agreement says little: a mean of all places
-constexpr float kDark = 0.01f;   // in the cache's scale
-constexpr float kMost = 1.5f;    // of `full`: what a single frame, maybe of an outlier, can say
-constexpr double kSlowest = 0.2; // learning rate: regions that come into view are to be learned
+constexpr float kDark = 0.01f;       // in the cache's scale
+constexpr float kMost = 1.5f;        // of `full`: what a single frame, maybe of an outlier, can say
+constexpr double kSlowest = 0.2;     // learning rate: regions that come into view are to be learned
 
 } // namespace
 

@@ -21,7 +21,8 @@ uint32_t recordsPerFrame(const NrcOptions& options) {
     return std::max(static_cast<uint32_t>(std::min<double>(scaled, kMostRecords)), options.config.minRecords);
 }
 
-// At most, of a record each: that many tiles, camera paths (those of tiles with them), and paths from surfaces.
+// At most, of a record each: that many tiles, camera paths (those of tiles with them), and paths from
+// surfaces.
 uint32_t mostTiles(const NrcOptions& options) {
     return std::min(recordsPerFrame(options), options.paths.pixels());
 }
@@ -87,8 +88,8 @@ std::vector<Device::PlannedBuffer> NrcRenderer::planned(bool isCpu, const VkPhys
                                                         const NrcOptions& options) {
     const PathTracerOptions paths = pathOptions(isCpu, limits, options);
     auto list = PathBuffers::planned(isCpu, paths);
-    auto cache = RadianceCache::planned(isCpu, limits,
-                                        cacheOptions(options, PathBuffers::largestWave(isCpu, paths)));
+    auto cache =
+        RadianceCache::planned(isCpu, limits, cacheOptions(options, PathBuffers::largestWave(isCpu, paths)));
     list.insert(list.end(), std::move_iterator(cache.begin()), std::move_iterator(cache.end()));
     return list;
 }
@@ -196,8 +197,8 @@ CachePaths NrcRenderer::bound(gpu::CacheRule rule, const RowRange& training) con
             rule};
 }
 
-// A cache that knows nothing is not shown (of light that no path has found there is nothing to know), unless it is what is looked at, was asked for at a given vertex, or
-// has its error made up for by paths that go on.
+// A cache that knows nothing is not shown (of light that no path has found there is nothing to know), unless
+// it is what is looked at, was asked for at a given vertex, or has its error made up for by paths that go on.
 bool NrcRenderer::isShown() const {
     const NrcConfig& config = options_.config;
     const bool knows = adaptation_.hasLearned() && counts_.state.metLight != 0;

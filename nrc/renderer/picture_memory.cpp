@@ -46,7 +46,8 @@ void requireRoomForPicture(const Device& device, const NrcOptions& options, bool
     const PathTracerOptions largest = scaled(options, fits).paths;
     constexpr double kMebibyte = 1024.0 * 1024.0;
     fail(ExitCode::OutOfMemory,
-         "a picture of {}x{} pixels takes {:.0f} MiB, and {} has {:.0f} MiB left; the largest of its shape that "
+         "a picture of {}x{} pixels takes {:.0f} MiB, and {} has {:.0f} MiB left; the largest of its shape "
+         "that "
          "fits is {}x{}",
          options.paths.width, options.paths.height, static_cast<double>(bytes) / kMebibyte,
          device.description().name, static_cast<double>(left) / kMebibyte, largest.width, largest.height);

@@ -96,7 +96,8 @@ void warnOfNoise(const Radiance& reference, const ImageMetrics& metrics) {
     if (!reference.image.channels.contains("Variance.R")) return;
     const double noise = relativeVariance(reference.pixels, reference.image.rgb("Variance"));
     if (metrics.relMse == 0 || !(noise > kSmall * metrics.relMse)) return;
-    logLine("warning: the reference's own noise is a relmse of {:.3g}, {:.0f} % of the difference: take one of more "
+    logLine("warning: the reference's own noise is a relmse of {:.3g}, {:.0f} % of the difference: take one "
+            "of more "
             "samples",
             noise, 100 * noise / metrics.relMse);
 }
@@ -110,8 +111,8 @@ ImageMetrics measure(const CompareOptions& options) {
              options.reference, reference.image.width, reference.image.height);
     const ImageMetrics metrics = compareImages(width, height, test.pixels, reference.pixels);
     if (metrics.nonFinitePixels > 0)
-        logLine("warning: {} of {} pixels are not finite and in no mean",
-                   metrics.nonFinitePixels, test.pixels.size());
+        logLine("warning: {} of {} pixels are not finite and in no mean", metrics.nonFinitePixels,
+                test.pixels.size());
     warnOfNoise(reference, metrics);
     return metrics;
 }

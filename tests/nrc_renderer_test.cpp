@@ -119,6 +119,7 @@ TEST_CASE("as a control variate the cache leaves no bias, whatever its weights")
     checked.config.residualShare = 0.0f;
     NrcRenderer biased(device(), cornell().gpu, cornell().bounds, checked);
     biased.setLearning(false);
+    biased.setWarmingUp(true); // else what knows nothing is not shown
     for (uint32_t i = 0; i < kFrames; ++i) biased.renderFrame(cornell().camera, i);
     CHECK_FALSE(reference::zTest(toEstimate(biased.tracer().readFilm()), expected).accepted());
 }

@@ -49,8 +49,8 @@ void describe(LayeredImage& image, RenderSession& session, uint32_t frames, cons
               const RenderedFrames& run) {
     const RenderRequest& request = session.request();
     const float aspect = static_cast<float>(image.width) / static_cast<float>(image.height);
-    image.matrices["worldToCamera"] = worldToCamera(session.camera());
-    image.matrices["worldToNDC"] = worldToNdc(session.camera(), aspect);
+    image.matrices["worldToCamera"] = worldToCamera(session.camera(), session.scene().origin);
+    image.matrices["worldToNDC"] = worldToNdc(session.camera(), aspect, session.scene().origin);
     auto& a = image.attributes;
     a["irradia.version"] = IRRADIA_VERSION;
     a["irradia.device"] = session.device().description().name;

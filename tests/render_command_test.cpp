@@ -205,6 +205,7 @@ TEST_CASE("an output in place of an input is refused, by whatever name, and the 
         {"-o a.exr --stats a.gltf", "is the scene"},
         {"-o a.exr --stats ../$(basename $PWD)/camera.json --camera camera.json", "is the camera"},
         {"-o sky.exr --env sky.exr", "is the environment"},
+        {"-o sky.exr --env sky.exr:sun", "is the environment"},
         {"-o sky.exr --camera camera.json", "is the environment"},
         {"-o sky.exr --view error-sign --reference sky.exr", "is the reference"},
         {"-o a.exr --stats changes.json --changes changes.json", "is the list of changes"},

@@ -2,6 +2,7 @@
 
 #include "engine/error.h"
 #include "engine/image/metrics.h"
+#include "engine/image/picture_file.h"
 #include "engine/log.h"
 #include "engine/scene/area_table.h"
 #include "samples/support/interrupt.h"
@@ -121,7 +122,7 @@ void addRequestOptions(CLI::App& command, RenderRequest& request) {
 std::vector<NamedFile> inputFiles(const RenderRequest& request) {
     return {{"the scene", request.scene},
             {"the camera", request.camera},
-            {"the environment", request.environment},
+            {"the environment", parsePictureName(request.environment).file.string()},
             {"the preset", request.preset},
             {"the network", request.network},
             {"the list of changes", request.changes},
@@ -161,7 +162,7 @@ RenderSession::RenderSession(const RenderRequest& request)
 
 std::vector<NamedFile> RenderSession::inputs() const {
     std::vector<NamedFile> files = inputFiles(request_);
-    files.push_back({"the environment", environment_});
+    files.push_back({"the environment", parsePictureName(environment_).file.string()});
     for (const std::filesystem::path& file : scene_.files)
         files.push_back({"a file of the scene", file.string()});
     return files;

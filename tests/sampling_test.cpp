@@ -256,7 +256,7 @@ TEST_CASE("camera rays are uniform in their pixels") {
                                        kRays,
                                        frame,
                                        1,
-                                       1,
+                                       0,
                                        0};
         graph.pass(kernel).write(rays).write(radiance).readWrite(counters).push(params).dispatch(kRays);
         graph.execute();
@@ -296,7 +296,7 @@ TEST_CASE("rays of an orthographic camera are parallel and leave their pixels") 
                                    kRays,
                                    0,
                                    1,
-                                   1,
+                                   0,
                                    1};
     graph.pass(kernel).write(rays).write(radiance).readWrite(counters).push(params).dispatch(kRays);
     graph.execute();

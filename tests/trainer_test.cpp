@@ -254,8 +254,9 @@ TEST_CASE("what pads the last quad of a record is not used") {
     }
 }
 
-TEST_CASE("predictions use the weights asked for, as they are now") {
-    const TrainingRecords records = randomRecords(50, 8);
+// The harness' trainer predicts 512 rows together.
+TEST_CASE("predictions use the weights asked for, as they are now, in parts where there are many rows") {
+    const TrainingRecords records = randomRecords(1300, 8);
     TrainerHarness harness(smallGridModel(kEverything));
     const reference::Training twin = harness.twin();
     const auto isThatOf = [&](Weights weights) {
@@ -273,9 +274,9 @@ TEST_CASE("predictions use the weights asked for, as they are now") {
         CHECK(isThatOf(Weights::Ema));
         CHECK(isThatOf(Weights::Raw));
         CHECK(isThatOf(Weights::Ema));
-        harness.train(records);
+        harness.train(records, 6);
         CHECK(isThatOf(Weights::Ema));
-        harness.train(records);
+        harness.train(records, 6);
         CHECK(isThatOf(Weights::Raw));
     }
     CHECK(raw() != ema());

@@ -23,15 +23,6 @@ bool isInside(const std::filesystem::path& folder, const std::filesystem::path& 
     return end == folder.end() && rest != file.end();
 }
 
-// Backslashes between folders, as programs of Windows write them, where no file has them in its name.
-std::string withSlashes(const SourceFile& source, std::string uri) {
-    std::error_code ignored;
-    if (uri.find('\\') != std::string::npos &&
-        !std::filesystem::exists(source.path.parent_path() / uri, ignored))
-        std::ranges::replace(uri, '\\', '/');
-    return uri;
-}
-
 } // namespace
 
 std::string printable(std::string text) {
@@ -62,9 +53,17 @@ std::string decodeUri(std::string_view uri) {
     return text;
 }
 
+// Dot segments go by the text alone (RFC 3986, 5.2.4): folders between them need not be there.
+std::filesystem::path relativePath(const SourceFile& source, std::string decodedUri) {
+    std::error_code ignored;
+    if (decodedUri.find('\\') != std::string::npos &&
+        !std::filesystem::exists(source.path.parent_path() / decodedUri, ignored))
+        std::ranges::replace(decodedUri, '\\', '/');
+    return std::filesystem::path(decodedUri).lexically_normal();
+}
+
 std::filesystem::path resolveUri(const SourceFile& source, const std::string& decodedUri) {
-    // Dot segments go by the text alone (RFC 3986, 5.2.4): folders between them need not be there.
-    const auto relative = std::filesystem::path(withSlashes(source, decodedUri)).lexically_normal();
+    const std::filesystem::path relative = relativePath(source, decodedUri);
     const bool climbs = relative.begin() != relative.end() && *relative.begin() == "..";
     if (decodedUri.empty() || relative.is_absolute() || climbs || decodedUri.find(':') != std::string::npos ||
         decodedUri.find('\0') != std::string::npos)

@@ -36,6 +36,10 @@ SourceFile openSource(const std::filesystem::path& file);
 // "%20" and its like as the bytes they stand for.
 std::string decodeUri(std::string_view uri);
 
+// A decoded relative URI as a path from the scene's folder, unchecked. Backslashes, as programs of Windows
+// write them, stand between folders where no file has them in its name.
+std::filesystem::path relativePath(const SourceFile& source, std::string decodedUri);
+
 // The file a decoded relative URI names. Throws BadData for anything that leaves the scene's folder: an
 // absolute path, a scheme, ".." beyond it, a symbolic link to elsewhere.
 std::filesystem::path resolveUri(const SourceFile& source, const std::string& decodedUri);

@@ -91,7 +91,8 @@ std::vector<std::filesystem::path> filesOf(const gltf::SourceFile& source, const
     std::vector<std::filesystem::path> files{source.path};
     const auto add = [&](const std::string& uri) {
         const bool isBeside = !uri.empty() && uri.find(':') == std::string::npos; // else in the file itself
-        if (isBeside) files.push_back(source.path.parent_path() / gltf::decodeUri(uri));
+        if (isBeside)
+            files.push_back(source.path.parent_path() / gltf::relativePath(source, gltf::decodeUri(uri)));
     };
     for (const tinygltf::Buffer& buffer : model.buffers) add(buffer.uri);
     for (const tinygltf::Image& image : model.images) add(image.uri);

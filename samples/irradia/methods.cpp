@@ -30,16 +30,18 @@ bool methodHasCache(const std::string& method) {
     return found->hasCache;
 }
 
-void requireOptionsOf(const std::string& method, const CLI::App& command) {
-    if (methodHasCache(method)) return;
+std::string optionOfCaches(const CLI::App& command) {
     for (const char* name : kOptionsOfCaches)
-        if (isGiven(command, name))
-            fail(ExitCode::Usage, "{} is for the methods with a cache; --method {} has none", name, method);
-    if (!isGiven(command, "--view")) return;
+        if (isGiven(command, name)) return name;
+    if (!isGiven(command, "--view")) return "";
     const View& view = findView(command.get_option("--view")->as<std::string>());
-    if (view.needsCache())
-        fail(ExitCode::Usage, "--view {} is for the methods with a cache; --method {} has none", view.name,
-             method);
+    return view.needsCache() ? fmt::format("--view {}", view.name) : "";
+}
+
+void requireOptionsOf(const std::string& method, const CLI::App& command) {
+    const std::string option = methodHasCache(method) ? "" : optionOfCaches(command);
+    if (!option.empty())
+        fail(ExitCode::Usage, "{} is for the methods with a cache; --method {} has none", option, method);
 }
 
 } // namespace irradia

@@ -9,6 +9,9 @@ namespace irradia {
 // Throws Error(Usage) naming the methods there are.
 bool methodHasCache(const std::string& method);
 
+// The first option of the command line that is of the methods with a cache, empty if none.
+std::string optionOfCaches(const CLI::App& command);
+
 // Throws Error(Usage) naming the first option of the command line that is of another method.
 void requireOptionsOf(const std::string& method, const CLI::App& command);
 

@@ -25,10 +25,10 @@ struct RenderOptions {
 constexpr uint32_t kCacheWarmup = 64;
 constexpr uint32_t kMostWarmup = 1'000'000;
 
-// What is indirect, the cache is asked for; without it there is nothing to ask.
-std::string chooseMethod(const RenderRequest& request) {
+// What is indirect, the cache is asked for; without it there is nothing to ask, unless it is asked for by name.
+std::string chooseMethod(const RenderRequest& request, const CLI::App& command) {
     if (!request.method.empty()) return request.method;
-    return request.maxBounces == 0 ? "pt" : "nrc";
+    return request.maxBounces == 0 && optionOfCaches(command).empty() ? "pt" : "nrc";
 }
 
 FramePlan planFrames(const RenderOptions& options) {
@@ -115,7 +115,7 @@ void addRender(CLI::App& program) {
     addFrameOptions(*command, *options);
     addProgressOption(*command, options->progress);
     command->callback([options, command] {
-        options->request.method = chooseMethod(options->request);
+        options->request.method = chooseMethod(options->request, *command);
         requireOptionsOf(options->request.method, *command);
         render(*options);
     });

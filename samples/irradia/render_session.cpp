@@ -2,6 +2,7 @@
 
 #include "engine/error.h"
 #include "engine/image/metrics.h"
+#include "engine/image/picture_file.h"
 #include "engine/log.h"
 #include "engine/scene/area_table.h"
 #include "engine/scene/scene_box.h"
@@ -69,12 +70,6 @@ void reportScene(const RenderRequest& request, const Scene& scene,
     for (const std::string& warning : warnings) logLine("warning: {}", warning);
 }
 
-// Of FILE.exr:LAYER the file.
-std::string fileOf(const std::string& environment) {
-    const size_t layer = environment.rfind(".exr:");
-    return layer == std::string::npos ? environment : environment.substr(0, layer + 4);
-}
-
 } // namespace
 
 void addRequestOptions(CLI::App& command, RenderRequest& request) {
@@ -137,7 +132,7 @@ void addRequestOptions(CLI::App& command, RenderRequest& request) {
 std::vector<NamedFile> inputFiles(const RenderRequest& request) {
     return {{"the scene", request.scene},
             {"the camera", request.camera},
-            {"the environment", fileOf(request.environment)},
+            {"the environment", parsePictureName(request.environment).file.string()},
             {"the preset", request.preset},
             {"the network", request.network},
             {"the list of changes", request.changes},
@@ -178,7 +173,7 @@ RenderSession::RenderSession(const RenderRequest& request)
 
 std::vector<NamedFile> RenderSession::inputs() const {
     std::vector<NamedFile> files = inputFiles(request_);
-    files.push_back({"the environment", fileOf(environment_)});
+    files.push_back({"the environment", parsePictureName(environment_).file.string()});
     for (const std::filesystem::path& file : scene_.files)
         files.push_back({"a file of the scene", file.string()});
     return files;

@@ -314,13 +314,11 @@ TEST_CASE("a function is learned, and each pass shuffles anew") {
     CHECK(!areSame(other.learned(), same.learned()));
 }
 
-TEST_CASE("more rows than were planned are refused") {
+TEST_CASE("more records than were planned are refused") {
     TrainerHarness harness;
     const TrainingRecords many = randomRecords(2 * kTrainerBatch + 1, 10);
     expectError(ExitCode::Internal, "768 records in 2 steps of at most 256", [&] { harness.train(many, 2); });
     expectError(ExitCode::Internal, "0 steps", [&] { harness.train(many, 0); });
-    expectError(ExitCode::Internal, "768 rows to predict, at most 512",
-                [&] { harness.predict(many, Weights::Ema); });
     expectError(ExitCode::Internal, "3 parameters to set",
                 [&] { harness.trainer().setParameters(std::vector<float>(3)); });
 }

@@ -49,7 +49,9 @@ NrcOptions viewed(uint32_t view, uint32_t maxBounces, float spread) {
 }
 
 FilmImage look(const Scene& scene, const NrcOptions& options, uint32_t frames = 2) {
-    return CachedScene(device(), scene, options).learn(scene.cameras[0], frames);
+    CachedScene cached(device(), scene, options);
+    cached.renderer().setWarmingUp(true); // the cache is asked from the first frame on
+    return cached.learn(scene.cameras[0], frames);
 }
 
 bool isEverywhere(const FilmImage& film, float number) {

@@ -197,13 +197,13 @@ CachePaths NrcRenderer::bound(gpu::CacheRule rule, const RowRange& training) con
             rule};
 }
 
-// A cache that knows nothing is not shown (of light that no path has found there is nothing to know), unless
-// it is what is looked at, was asked for at a given vertex, or has its error made up for by paths that go on.
+// A cache that knows nothing is not shown (of light that no path has found there is nothing to know), unless it
+// was asked for at a given vertex, or has its error made up for by paths that go on.
 bool NrcRenderer::isShown() const {
     const NrcConfig& config = options_.config;
     const bool knows = adaptation_.hasLearned() && counts_.state.metLight != 0;
-    return isWarmingUp_ || knows || options_.paths.view != gpu::kViewPicture ||
-           config.endDepth != gpu::kNoDepth || config.spread < 0 || config.residualShare > 0;
+    return isWarmingUp_ || knows || config.endDepth != gpu::kNoDepth || config.spread < 0 ||
+           config.residualShare > 0;
 }
 
 // Where paths end, with all of the frame's training paths.

@@ -58,7 +58,7 @@ struct Limit {
     double value;
 };
 
-const Metric& findMetric(const std::string& name) {
+const Metric& findMetric(std::string_view name) {
     const auto* found =
         std::ranges::find_if(kMetrics, [&](const Metric& metric) { return name == metric.name; });
     if (found != std::end(kMetrics)) return *found;
@@ -71,8 +71,7 @@ const Metric& findMetric(const std::string& name) {
 Limit parseLimit(const std::string& text) {
     const size_t equals = text.find('=');
     if (equals == std::string::npos) fail(ExitCode::Usage, "--fail-above {}: not METRIC=X", text);
-    const std::string name = text.substr(0, equals);
-    const Metric& metric = findMetric(name);
+    const Metric& metric = findMetric(text.substr(0, equals));
     const auto value = toNumber(text.substr(equals + 1));
     if (!value) fail(ExitCode::Usage, "--fail-above {}: {} is not a number", text, text.substr(equals + 1));
     return {&metric, *value};

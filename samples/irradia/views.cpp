@@ -59,7 +59,7 @@ std::vector<std::string> viewNames() {
     return names;
 }
 
-const View& findView(const std::string& name) {
+const View& findView(std::string_view name) {
     if (name.empty()) return kPicture;
     for (const View& view : kViews)
         if (name == view.name) return view;

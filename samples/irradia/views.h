@@ -26,6 +26,6 @@ struct View {
 
 std::vector<std::string> viewNames();
 // The picture itself has the name "". Throws Error(Usage) naming those there are.
-const View& findView(const std::string& name);
+const View& findView(std::string_view name);
 
 } // namespace irradia

@@ -22,12 +22,12 @@ void benchFrame(const BenchFrameOptions& options) {
     catchInterrupts();
     RenderSession session(options.request);
     requireApart({{"--json", options.json}}, session.inputs());
-    // The first frames compile the kernels.
-    for (uint32_t i = 0; i < 2; ++i) session.renderFrame(i);
+    // Frames of a warm-up ask the cache before it knows anything, as all do later. The first compile the kernels.
+    for (uint32_t i = 0; i < 2; ++i) session.renderWarmupFrame(i);
     session.profiler().reset();
     stopIfInterrupted();
     uint32_t frames = 0;
-    while (frames < options.frames && !interruptedBy()) session.renderFrame(2 + frames++);
+    while (frames < options.frames && !interruptedBy()) session.renderWarmupFrame(2 + frames++);
     printFrameStats(session);
     if (!options.json.empty()) writeJson(options.json, frameStats(session));
     endIfInterrupted(frames, "frames");

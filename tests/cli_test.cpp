@@ -113,8 +113,8 @@ TEST_CASE("options of another method are refused by name, whatever their value")
         checkRefused("render scene.glb -o a.exr --method pt " + option, 64,
                      name + " is for the methods with a cache; --method pt has none");
     }
-    // Without indirect light there is nothing to cache.
-    checkRefused("render scene.glb -o a.exr --max-bounces 0 --preset fast", 64, "--method pt has none");
+    // Without a method they choose one that has a cache, even where there is no indirect light to keep.
+    checkRefused("render scene.glb -o a.exr --max-bounces 0 --preset fast", 66, "scene.glb");
     checkRefused("bench frame scene.glb --method pt --preset fast", 64, "--method pt has none");
     checkRefused("render scene.glb -o a.exr --method none --preset fast", 64,
                  "there are pt, nrc and cache-view");

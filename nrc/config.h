@@ -2,12 +2,15 @@
 //
 //     {"encoding": {"otype": "HashGrid", "n_levels": 8, ...}, "network": {"otype": "FullyFusedMLP",
 //     "n_neurons": 64, ...},
-//      "loss": {"otype": "RelativeL2Luminance"}, "optimizer": {"otype": "Ema", "decay": 0.99, "nested":
-//      {"otype": "Adam", ...}}}
+//      "loss": {"otype": "RelativeL2Luminance", "epsilon": 0.01}, "optimizer": {"otype": "Ema", "decay":
+//      0.99, "nested": {"otype": "Adam", ...}}}
+//
+// A model says what it is: a key may be left out only where the struct's comment says what that means.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -28,15 +31,15 @@ enum class EncodingType {
 // One encoding of a composite, over consecutive inputs.
 struct EncodingConfig {
     EncodingType type = EncodingType::Identity;
-    uint32_t dims = 0; // n_dims_to_encode; 0 = all inputs that are left (at most one such, or the last)
+    uint32_t dims = 0; // n_dims_to_encode; 0 or left out = all inputs that are left, in one part at most
 
-    double scale = 1.0;  // Identity: scale * x + offset
-    double offset = 0.0; // Identity
+    double scale = 1.0;  // Identity: scale * x + offset; left out = 1
+    double offset = 0.0; // left out = 0
 
     uint32_t frequencies = 12; // Frequency, TriangleWave: n_frequencies, 1 to 16
 
     uint32_t bins = 4;     // OneBlob: n_bins, 1 to 64
-    bool gaussian = false; // OneBlob: "kernel": "Gaussian" (exact) or "Quartic" (default)
+    bool gaussian = false; // OneBlob: "kernel": "Gaussian" (exact) or "Quartic" (where left out)
 
     uint32_t degree = 4; // SphericalHarmonics: bands 0 .. degree - 1, 1 to 4, degree^2 values of a direction
 
@@ -45,7 +48,9 @@ struct EncodingConfig {
     uint32_t log2HashmapSize = 15; // HashGrid: log2_hashmap_size, entries a level at most, 4 to 24
     uint32_t baseResolution = 16;  // grids: base_resolution, cells an edge, 1 to 65536
     double perLevelScale = 2.0;    // grids: per_level_scale, 1 to 16; the finest level has at most 2^20 cells
-    bool mean = false;             // grids: "aggregation": "Mean" over levels, or "Concatenation" (default)
+    bool mean = false; // grids: "aggregation": "Mean" over levels, or "Concatenation" (where left out)
+
+    bool operator==(const EncodingConfig&) const = default;
 };
 
 enum class Precision { Float, Half };
@@ -55,10 +60,13 @@ enum class OutputActivation { None, ReLU, Exponential, Softplus };
 struct NetworkConfig {
     uint32_t width = 64;       // n_neurons: 16, 32, 64 or 128
     uint32_t hiddenLayers = 5; // n_hidden_layers, 1 to 8
+    // What follows may be left out, as may the only "otype" and "activation" there are.
     OutputActivation outputActivation = OutputActivation::None;
     Precision precision =
         Precision::Float; // "precision": "Float" or "Half": weights and activations; sums are single
     NetworkForm form = NetworkForm::Auto; // "form": "Auto", "Subgroup", "Workgroup"
+
+    bool operator==(const NetworkConfig&) const = default;
 };
 
 enum class LossType { L2, RelativeL2, RelativeL2Luminance };
@@ -67,29 +75,33 @@ struct LossConfig {
     LossType type = LossType::L2;
     double epsilon = 0.01; // added to the squared prediction of relative losses
     // The denominator is raised to a power that goes linearly from exponentStart to exponentEnd over the
-    // steps [annealStart, annealEnd]: 1 = relative, 0 = plain L2.
+    // steps [annealStart, annealEnd]: 1 (where left out) = relative, 0 = plain L2.
     double exponentStart = 1.0;
     double exponentEnd = 1.0;
     uint32_t annealStart = 0;
     uint32_t annealEnd = 0;
+
+    bool operator==(const LossConfig&) const = default;
 };
 
 struct OptimizerConfig {
     double learningRate = 1e-2;     // of the network's weights
-    double gridLearningRate = 1e-2; // "grid_learning_rate" of the features; as learning_rate where not given
+    double gridLearningRate = 1e-2; // "grid_learning_rate" of the features; left out = as learning_rate
     double beta1 = 0.9;
     double beta2 = 0.99;
     double epsilon = 1e-8;
-    double l2 = 1e-6;           // "l2_reg", of the network's weights alone
-    double emaDecay = 0.0;      // Ema "decay": alpha in [0, 1); 0 = the weights themselves
-    uint32_t decayStart = 0;    // ExponentialDecay: the rate is multiplied by decayBase
-    uint32_t decayInterval = 0; // every decayInterval steps (0 = never)
-    uint32_t decayEnd = UINT32_MAX;
+    double l2 = 1e-6;               // "l2_reg", of the network's weights alone
+    double emaDecay = 0.0;          // Ema "decay": alpha in [0, 1); 0, or no Ema = the weights themselves
+    uint32_t decayStart = 0;        // ExponentialDecay: the rate is multiplied by decayBase
+    uint32_t decayInterval = 0;     // every decayInterval steps (0, or no ExponentialDecay = never)
+    uint32_t decayEnd = UINT32_MAX; // start and end left out = from the first step on, without end
     double decayBase = 1.0;
-    double clipNorm = 0.0; // "clip_norm": largest norm of the gradient; 0 = no clip
-    // "loss_scale", half precision only: brings gradients of a record's own loss into the middle of 6e-8 to
-    // 4096, beyond which they vanish or are cut.
+    double clipNorm = 0.0; // "clip_norm": largest norm of the gradient; 0 or left out = no clip
+    // "loss_scale", half precision only, left out = 1: brings gradients of a record's own loss into the
+    // middle of 6e-8 to 4096, beyond which they vanish or are cut.
     double lossScale = 1.0;
+
+    bool operator==(const OptimizerConfig&) const = default;
 };
 
 struct ModelConfig {
@@ -97,13 +109,18 @@ struct ModelConfig {
     NetworkConfig network;
     LossConfig loss;
     OptimizerConfig optimizer;
+
+    bool operator==(const ModelConfig&) const = default;
 };
 
 // Throws Error: NotFound, or BadData naming the file and the key that is unknown, missing or out of range.
 ModelConfig loadModelConfig(const std::filesystem::path& file);
 ModelConfig parseModelConfig(const std::string& json, const std::string& name);
+// What stands at `path` of the file `name`, empty for the file itself.
+ModelConfig readModelConfig(const nlohmann::json& json, const std::string& name, const std::string& path);
 
 // The same as JSON with every key, for files that record it; parseModelConfig gives it back.
+nlohmann::ordered_json modelJson(const ModelConfig& config);
 std::string toJson(const ModelConfig& config);
 
 // "FullyFusedMLP 64x5", for messages.

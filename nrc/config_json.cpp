@@ -85,12 +85,15 @@ Json optimizerJson(const OptimizerConfig& config) {
 
 } // namespace
 
+Json modelJson(const ModelConfig& config) {
+    return {{"encoding", encodingJson(config.encoding)},
+            {"network", networkJson(config.network)},
+            {"loss", lossJson(config.loss)},
+            {"optimizer", optimizerJson(config.optimizer)}};
+}
+
 std::string toJson(const ModelConfig& config) {
-    return Json{{"encoding", encodingJson(config.encoding)},
-                {"network", networkJson(config.network)},
-                {"loss", lossJson(config.loss)},
-                {"optimizer", optimizerJson(config.optimizer)}}
-        .dump(2);
+    return modelJson(config).dump(2);
 }
 
 std::string describe(const NetworkConfig& config) {

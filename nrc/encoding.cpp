@@ -2,14 +2,12 @@
 
 #include "engine/error.h"
 #include "kernels/nrc.h"
-#include "nrc/checksum.h"
 #include "nrc/encoding_kernels.h"
 #include "nrc/random.h"
 
 namespace irradia {
 namespace {
 
-constexpr uint64_t kGridAlignment = 16; // features: whole entries of any grid
 constexpr float kInitialFeature = 1e-4f;
 
 struct Grid {
@@ -60,32 +58,17 @@ struct Encoding::State {
     uint64_t features = 0;
     std::optional<uint32_t> storedCorners;
     std::vector<SlicePass> slices;
-
-    std::vector<FeatureGrid> layOutGrids(const Device& device, std::span<const glm::vec3> touched);
 };
-
-// The grids one after the other; `features` becomes their sum, storedCorners what they store.
-std::vector<FeatureGrid> Encoding::State::layOutGrids(const Device& device,
-                                                      std::span<const glm::vec3> touched) {
-    std::vector<FeatureGrid> grids;
-    for (const EncodingSlice& slice : layout.slices) {
-        if (!isGrid(slice.config.type)) continue;
-        const uint64_t perEntry = slice.config.featuresPerLevel;
-        grids.push_back(makeFeatureGrid(slice.config, features / perEntry, device.limits(), touched));
-        if (grids.back().kind == gpu::kGridSparse)
-            storedCorners = checksum<uint32_t>(grids.back().entries, storedCorners.value_or(0));
-        features = (grids.back().end * perEntry + kGridAlignment - 1) / kGridAlignment * kGridAlignment;
-    }
-    return grids;
-}
 
 Encoding::Encoding(Device& device, const std::vector<EncodingConfig>& parts, uint32_t inputs,
                    Precision precision, std::span<const glm::vec3> touched)
     : state_(std::make_unique<State>()) {
     State& s = *state_;
     s.layout = layOut(parts, inputs);
-    const std::vector<FeatureGrid> grids = s.layOutGrids(device, touched);
-    auto grid = grids.begin();
+    const FeatureGrids grids = layOutGrids(s.layout, device.limits(), touched);
+    s.features = grids.features;
+    s.storedCorners = grids.storedCorners;
+    auto grid = grids.grids.begin();
     for (const EncodingSlice& slice : s.layout.slices) {
         SlicePass pass{passName(slice.config.type), {}, nullptr};
         if (isGrid(slice.config.type)) {

@@ -1,6 +1,7 @@
 #include "nrc/feature_grid.h"
 
 #include "engine/error.h"
+#include "nrc/checksum.h"
 #include "nrc/sparse_corners.h"
 #include <algorithm>
 #include <bit>
@@ -9,6 +10,7 @@
 namespace irradia {
 namespace {
 
+constexpr uint64_t kGridAlignment = 16;        // features: whole entries of any grid
 constexpr uint64_t kEntryAlignment = 8;        // whole records of any number of features
 constexpr uint32_t kMaxSparseResolution = 129; // of a level whose corners are listed
 
@@ -110,6 +112,21 @@ FeatureGrid makeFeatureGrid(const EncodingConfig& config, uint64_t first,
         requireBindable(grid.end * config.featuresPerLevel, what, limits);
     }
     return grid;
+}
+
+FeatureGrids layOutGrids(const EncodingLayout& layout, const VkPhysicalDeviceLimits& limits,
+                         std::span<const glm::vec3> touched) {
+    FeatureGrids all;
+    for (const EncodingSlice& slice : layout.slices) {
+        if (!isGrid(slice.config.type)) continue;
+        const uint64_t perEntry = slice.config.featuresPerLevel;
+        all.grids.push_back(makeFeatureGrid(slice.config, all.features / perEntry, limits, touched));
+        const FeatureGrid& grid = all.grids.back();
+        if (grid.kind == gpu::kGridSparse)
+            all.storedCorners = checksum<uint32_t>(grid.entries, all.storedCorners.value_or(0));
+        all.features = (grid.end * perEntry + kGridAlignment - 1) / kGridAlignment * kGridAlignment;
+    }
+    return all;
 }
 
 } // namespace irradia

@@ -2,8 +2,10 @@
 #pragma once
 
 #include "engine/gpu/device.h"
-#include "nrc/config.h"
+#include "nrc/encoding_layout.h"
 #include "shared/network.h"
+#include <glm/glm.hpp>
+#include <optional>
 #include <span>
 
 namespace irradia {
@@ -21,6 +23,16 @@ struct FeatureGrid {
 // Error(OutOfMemory) with the numbers where it outgrows a binding.
 FeatureGrid makeFeatureGrid(const EncodingConfig& config, uint64_t first,
                             const VkPhysicalDeviceLimits& limits, std::span<const glm::vec3> touched);
+
+// The grids of an encoding, one after the other.
+struct FeatureGrids {
+    std::vector<FeatureGrid> grids; // of the layout's slices that are grids
+    uint64_t features = 0;          // of all
+    std::optional<uint32_t> storedCorners; // CRC-32 of which corners the sparse ones store
+};
+
+FeatureGrids layOutGrids(const EncodingLayout& layout, const VkPhysicalDeviceLimits& limits,
+                         std::span<const glm::vec3> touched);
 
 // Throws Error(OutOfMemory) where so many features, each with 8 bytes of gradient sums, outgrow a binding.
 void requireBindable(uint64_t features, const std::string& what, const VkPhysicalDeviceLimits& limits);

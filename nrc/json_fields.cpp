@@ -1,6 +1,7 @@
 #include "nrc/json_fields.h"
 
 #include "engine/error.h"
+#include "engine/image/read_file.h"
 #include <algorithm>
 #include <set>
 
@@ -52,6 +53,15 @@ Json parseJson(const std::string& text, const std::string& file) {
     }
 }
 
+Json loadJson(const std::filesystem::path& file) {
+    requireFile(file);
+    if (const uint64_t bytes = std::filesystem::file_size(file); bytes > kMaxJsonBytes)
+        fail(ExitCode::BadData, "{}: {} bytes are too many, at most {} are read", file.string(), bytes,
+             kMaxJsonBytes);
+    const std::vector<uint8_t> bytes = readFile(file);
+    return parseJson({bytes.begin(), bytes.end()}, file.string());
+}
+
 bool NumberRange::contains(double value) const {
     return (bounds == LowOpen ? value > low : value >= low) &&
            (bounds == HighOpen ? value < high : value <= high);
@@ -75,29 +85,37 @@ bool JsonFields::has(const std::string& key) const {
     return object_.contains(key);
 }
 
-double JsonFields::number(const std::string& key, double fallback, const NumberRange& range) {
+double JsonFields::number(const std::string& key, const NumberRange& range) {
     const Json* value = ask(key);
-    if (!value) return fallback;
-    if (!value->is_number() || !range.contains(value->get<double>())) refuse(key, range.text());
+    if (!value || !value->is_number() || !range.contains(value->get<double>())) refuse(key, range.text());
     return value->get<double>();
 }
 
-uint32_t JsonFields::integer(const std::string& key, uint32_t fallback, uint32_t low, uint32_t high) {
-    const Json* value = ask(key);
-    if (!value) return fallback;
-    const uint64_t whole = value->is_number_unsigned() ? value->get<uint64_t>() : UINT64_MAX;
+double JsonFields::number(const std::string& key, double fallback, const NumberRange& range) {
+    return ask(key) ? number(key, range) : fallback;
+}
+
+uint32_t JsonFields::integer(const std::string& key, uint32_t low, uint32_t high) {
+    const uint64_t whole = wholeNumber(key);
     if (whole < low || whole > high) refuse(key, fmt::format("a whole number from {} to {}", low, high));
     return static_cast<uint32_t>(whole);
 }
 
-uint32_t JsonFields::integer(const std::string& key, uint32_t fallback,
-                             std::initializer_list<uint32_t> allowed) {
-    const Json* value = ask(key);
-    if (!value) return fallback;
-    const uint64_t whole = value->is_number_unsigned() ? value->get<uint64_t>() : UINT64_MAX;
+uint32_t JsonFields::integer(const std::string& key, uint32_t fallback, uint32_t low, uint32_t high) {
+    return ask(key) ? integer(key, low, high) : fallback;
+}
+
+uint32_t JsonFields::integer(const std::string& key, std::initializer_list<uint32_t> allowed) {
+    const uint64_t whole = wholeNumber(key);
     if (std::ranges::find(allowed, whole) == allowed.end())
         refuse(key, fmt::format("one of {}", fmt::join(allowed, ", ")));
     return static_cast<uint32_t>(whole);
+}
+
+const Json& JsonFields::section(const std::string& key) {
+    const Json* value = ask(key);
+    if (!value || !value->is_object()) refuse(key, "an object");
+    return *value;
 }
 
 void JsonFields::numberPair(const std::string& key, double (&pair)[2], const NumberRange& range) {
@@ -143,14 +161,20 @@ void JsonFields::refuse(const std::string& key, const std::string& allowed) cons
 }
 
 const Json* JsonFields::ask(const std::string& key) {
-    asked_.push_back(key);
+    if (std::ranges::find(asked_, key) == asked_.end()) asked_.push_back(key);
     const auto found = object_.find(key);
     return found == object_.end() ? nullptr : &*found;
 }
 
-size_t JsonFields::choose(const std::string& key, std::span<const char* const> names) const {
-    const Json& value = object_[key];
-    const auto* const text = value.get_ptr<const std::string*>();
+// UINT64_MAX, which no key allows, for what is none.
+uint64_t JsonFields::wholeNumber(const std::string& key) {
+    const Json* value = ask(key);
+    return value && value->is_number_unsigned() ? value->get<uint64_t>() : UINT64_MAX;
+}
+
+size_t JsonFields::choose(const std::string& key, std::span<const char* const> names) {
+    const Json* value = ask(key);
+    const auto* const text = value ? value->get_ptr<const std::string*>() : nullptr;
     const auto found = std::ranges::find_if(names, [&](const char* name) { return text && *text == name; });
     if (found == names.end()) refuse(key, fmt::format("one of {}", fmt::join(names, ", ")));
     return static_cast<size_t>(found - names.begin());

@@ -30,6 +30,8 @@ const char* nameOf(const EnumName<Enum> (&names)[N], Enum value) {
 
 // Throws Error(BadData) for broken JSON, a key given twice, or more than the limits above.
 nlohmann::json parseJson(const std::string& text, const std::string& file);
+// The same of a file. Throws Error: NotFound, Io, and BadData naming it.
+nlohmann::json loadJson(const std::filesystem::path& file);
 
 // What a number must lie in.
 struct NumberRange {
@@ -47,22 +49,28 @@ public:
     JsonFields(const nlohmann::json& object, std::string file, std::string path);
 
     bool has(const std::string& key) const;
-    // Each returns `fallback` where the key is missing.
+    // Each refuses a key that is missing, unless there is a `fallback` to return.
+    double number(const std::string& key, const NumberRange& range);
+    uint32_t integer(const std::string& key, uint32_t low, uint32_t high);
+    uint32_t integer(const std::string& key, std::initializer_list<uint32_t> allowed);
+    template <typename Enum, size_t N>
+    Enum choice(const std::string& key, const EnumName<Enum> (&names)[N]) {
+        ask(key);
+        return names[choose(key, textsOf(names))].value;
+    }
+    const nlohmann::json& section(const std::string& key); // an object
+
     double number(const std::string& key, double fallback, const NumberRange& range);
     uint32_t integer(const std::string& key, uint32_t fallback, uint32_t low, uint32_t high);
-    uint32_t integer(const std::string& key, uint32_t fallback, std::initializer_list<uint32_t> allowed);
     void numberPair(const std::string& key, double (&pair)[2], const NumberRange& range);
     void integerPair(const std::string& key, uint32_t& low, uint32_t& high); // low <= high
 
     template <typename Enum, size_t N>
     Enum choice(const std::string& key, Enum fallback, const EnumName<Enum> (&names)[N]) {
-        if (!ask(key)) return fallback;
-        std::vector<const char*> texts;
-        for (const EnumName<Enum>& entry : names) texts.push_back(entry.name);
-        return names[choose(key, texts)].value;
+        return ask(key) ? names[choose(key, textsOf(names))].value : fallback;
     }
 
-    // A member that is an object, or an object of a list: null where the key is missing.
+    // Null where the key is missing.
     const nlohmann::json* member(const std::string& key) { return ask(key); }
 
     void finish() const; // refuses the members nobody asked for
@@ -71,8 +79,16 @@ public:
     [[noreturn]] void refuse(const std::string& key, const std::string& allowed) const;
 
 private:
+    template <typename Enum, size_t N>
+    static std::vector<const char*> textsOf(const EnumName<Enum> (&names)[N]) {
+        std::vector<const char*> texts;
+        for (const EnumName<Enum>& entry : names) texts.push_back(entry.name);
+        return texts;
+    }
+
     const nlohmann::json* ask(const std::string& key);
-    size_t choose(const std::string& key, std::span<const char* const> names) const;
+    uint64_t wholeNumber(const std::string& key);
+    size_t choose(const std::string& key, std::span<const char* const> names);
 
     const nlohmann::json& object_;
     std::string file_;

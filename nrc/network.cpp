@@ -1,9 +1,9 @@
 #include "nrc/network.h"
 
 #include "engine/error.h"
+#include "nrc/batch_rows.h"
 #include "nrc/network_kernels.h"
 #include "nrc/random.h"
-#include "nrc/row_padding.h"
 #include <algorithm>
 #include <cmath>
 
@@ -26,10 +26,6 @@ NetworkConfig resolved(const Device& device, NetworkConfig config) {
 
 gpu::RowsParams rowsParams(const RowCount& rows, glm::uvec2 kept = {}) {
     return {rows.index, rows.capacity, rows.first, 0, kept};
-}
-
-uint32_t chunkCount(uint32_t rows, uint32_t ofChunk) {
-    return (rows + ofChunk - 1) / ofChunk;
 }
 
 void initialiseMatrix(std::span<float> matrix, uint32_t fanIn, uint32_t fanOut, RandomStream& random) {
@@ -80,16 +76,13 @@ uint64_t Network::packedBytes() const {
     return state_->shape.packedQuads() * state_->shape.quadBytes;
 }
 uint64_t Network::activationBytes(uint32_t capacity) const {
-    return uint64_t(capacity) * state_->shape.activationQuads() * state_->shape.quadBytes;
+    return state_->shape.activationBytes(capacity);
 }
 uint64_t Network::layerGradientBytes(uint32_t capacity) const {
-    return uint64_t(capacity) * state_->shape.gradientQuads() * state_->shape.quadBytes;
-}
-uint32_t Network::chunkRows(uint32_t batchCapacity) {
-    return paddedRows((batchCapacity + gpu::kGradientChunks - 1) / gpu::kGradientChunks);
+    return state_->shape.layerGradientBytes(capacity);
 }
 uint64_t Network::partialBytes(uint32_t batchCapacity) const {
-    return chunkCount(batchCapacity, chunkRows(batchCapacity)) * weightCount() * sizeof(float);
+    return state_->shape.partialBytes(batchCapacity);
 }
 
 void Network::initialise(std::span<float> weights, uint64_t seed) const {

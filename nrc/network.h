@@ -60,11 +60,10 @@ public:
                   BufferRange results, BufferRange resultGradient, BufferRange layerGradients,
                   const BufferRange* inputGradient) const;
 
-    // Sums of layer gradient x activation over rows, in fixed chunks of a batch's `batchCapacity` rows:
-    // `rows` may be a part of the batch that is whole chunks of it. Then, of all parts: gradients
+    // Sums of layer gradient x activation over rows, in the chunks of a batch of `batchCapacity` rows
+    // (nrc/batch_rows.h): `rows` may be a part of the batch that is whole chunks of it. Then, of all parts: gradients
     // (weightCount() floats) = the chunks' sums in order, times the float at word `scaleWord` of `scale`. So
     // the result depends neither on threads nor on the parts.
-    static uint32_t chunkRows(uint32_t batchCapacity);
     uint64_t partialBytes(uint32_t batchCapacity) const;
     void weightGradient(FrameGraph& graph, const RowCount& rows, uint32_t batchCapacity, BufferRange encoded,
                         BufferRange activations, BufferRange layerGradients, BufferRange partials) const;

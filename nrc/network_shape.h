@@ -1,6 +1,7 @@
 // Sizes of a network, in values and quads (shared/network.h).
 #pragma once
 
+#include "nrc/batch_rows.h"
 #include "nrc/config.h"
 #include "shared/network.h"
 
@@ -26,6 +27,12 @@ struct NetworkShape {
     }
     uint32_t activationQuads() const { return hiddenLayers * widthQuads(); }
     uint32_t gradientQuads() const { return activationQuads() + outputQuads(); }
+    // Of so many rows of a batch, or of all of it.
+    uint64_t activationBytes(uint64_t rows) const { return rows * activationQuads() * quadBytes; }
+    uint64_t layerGradientBytes(uint64_t rows) const { return rows * gradientQuads() * quadBytes; }
+    uint64_t partialBytes(uint32_t batchRows) const {
+        return chunkCount(batchRows, chunkRows(batchRows)) * weights() * sizeof(float);
+    }
 };
 
 // Throws Error(BadData) with the numbers that do not fit.

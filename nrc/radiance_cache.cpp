@@ -2,31 +2,43 @@
 
 #include "engine/error.h"
 #include "kernels/nrc.h"
-#include "nrc/row_padding.h"
+#include "nrc/batch_rows.h"
 #include "shared/network.h"
 #include <algorithm>
 
 namespace irradia {
 namespace {
 
-// Rows that the frame's records may take: their number follows the picture, and is never exactly what was
+constexpr uint64_t kInputBytes = gpu::kCacheInputQuads * 16;
+constexpr uint64_t kPathBytes = gpu::kTrainingPathVectors * 16;
+constexpr uint64_t kVertexBytes = gpu::kMaxTrainingVertices * gpu::kTrainingVertexVectors * 16; // of a path
+
+// Training paths whose vertices become records together: their range fits any device's binding, and one
+// dispatch takes all of their vertices.
+constexpr uint32_t kPathsTogether = 1u << 16;
+
+// Records of a step, and of a frame, at most: their number follows the picture, and is never exactly what was
 // wanted.
+uint32_t stepCapacity(const CacheOptions& options) {
+    return paddedRows((options.records + options.records / 2) / std::max(options.steps, 1u));
+}
 uint32_t recordCapacity(const CacheOptions& options) {
-    const uint32_t batch = paddedRows((options.records + options.records / 2) / std::max(options.steps, 1u));
-    return batch * std::max(options.steps, 1u);
+    return stepCapacity(options) * std::max(options.steps, 1u);
+}
+
+// Rows of queries that are answered together at most: a wave's, or those of a part of the training paths.
+uint32_t answeredRows(const CacheOptions& options) {
+    return paddedRows(std::max(options.queries, std::min(options.trainingPaths, kPathsTogether)));
 }
 
 TrainerOptions trainerOptions(const CacheOptions& options) {
     TrainerOptions trainer;
-    trainer.batchRows = recordCapacity(options) / std::max(options.steps, 1u);
-    trainer.inferRows = paddedRows(std::max(options.queries, options.trainingPaths));
+    trainer.batchRows = stepCapacity(options);
+    trainer.inferRows = answeredRows(options);
     trainer.seed = options.seed;
     trainer.touched = options.touched;
     return trainer;
 }
-
-constexpr uint64_t kInputBytes = gpu::kCacheInputQuads * 16;
-constexpr uint64_t kVertexBytes = gpu::kMaxTrainingVertices * gpu::kTrainingVertexVectors * 16;
 
 BufferRange word(const Buffer& buffer, uint32_t index) {
     return {buffer, index * 4, 4};
@@ -44,9 +56,9 @@ struct RadianceCache::State {
         , trainer(d, o.model, gpu::kCacheInputs, gpu::kCacheOutputs, trainerOptions(o))
         , queries(d, "cache queries", queryRows * kInputBytes)
         , queryWeights(d, "query weights", uint64_t(queryRows) * 16)
-        , predictions(d, "predictions", uint64_t(std::max(queryRows, pathRows)) * 16)
+        , predictions(d, "predictions", uint64_t(answeredRows(o)) * 16)
         , counters(d, "cache counters", gpu::kCacheCounters * 4)
-        , trainingPaths(d, "training paths", uint64_t(pathRows) * gpu::kTrainingPathVectors * 16)
+        , trainingPaths(d, "training paths", uint64_t(pathRows) * kPathBytes)
         , trainingVertices(d, "training vertices", pathRows * kVertexBytes)
         , trainingQueries(d, "training queries", pathRows * kInputBytes)
         , pathSums(d, "training path sums", uint64_t(pathRows) * 16)
@@ -61,6 +73,16 @@ struct RadianceCache::State {
         , rescaleOutputs(d, kernels::rescale_outputs) {}
 
     void writeTargets(FrameGraph& graph, uint32_t paths);
+    void propagate(FrameGraph& graph, const RowRange& part);
+    void writeRecordsOf(FrameGraph& graph, const RowRange& part);
+    gpu::RecordsParams recordsParams(uint32_t paths) const {
+        return {paths, capacity, options.factorise ? 1u : 0u, options.meanDecay};
+    }
+    // What belongs to the training paths of a part; of the last as far as there are rows.
+    BufferRange ofPart(const Buffer& all, const RowRange& part, uint64_t pathBytes) const {
+        const uint64_t rows = std::min(kPathsTogether, pathRows - part.first);
+        return {all, part.first * pathBytes, rows * pathBytes};
+    }
     void followScale(FrameGraph& graph);
 
     Device& device;
@@ -79,12 +101,25 @@ RadianceCache::RadianceCache(Device& device, const CacheOptions& options)
 
 RadianceCache::~RadianceCache() = default;
 
-std::vector<Device::PlannedBuffer> RadianceCache::plannedBuffers(const CacheOptions& options) {
+std::vector<Device::PlannedBuffer> RadianceCache::planned(bool isCpu, const VkPhysicalDeviceLimits& limits,
+                                                          const CacheOptions& options) {
     const uint64_t paths = paddedRows(options.trainingPaths), queries = paddedRows(options.queries);
-    return {
-        {"cache queries", queries * (kInputBytes + 16) + std::max(queries, paths) * 16},
-        {"training paths", paths * (gpu::kTrainingPathVectors * 16 + kVertexBytes + kInputBytes + 16 + 4)},
-        {"training records", recordCapacity(options) * (kInputBytes + 16)}};
+    const uint64_t capacity = recordCapacity(options);
+    auto list = Trainer::planned(isCpu, limits, options.model, gpu::kCacheInputs, gpu::kCacheOutputs,
+                                 trainerOptions(options));
+    // Who traces paths binds those of a wave; its own plan says how many these are.
+    const uint64_t together = std::min<uint64_t>(paths, kPathsTogether);
+    list.insert(list.end(), {{"cache queries", queries * kInputBytes},
+                             {"query weights", queries * 16},
+                             {"predictions", uint64_t(answeredRows(options)) * 16},
+                             {"training paths", paths * kPathBytes, together * kPathBytes},
+                             {"training vertices", paths * kVertexBytes, together * kVertexBytes},
+                             {"training queries", paths * kInputBytes},
+                             {"training path sums", paths * 16},
+                             {"first records", paths * 4},
+                             {"record inputs", capacity * kInputBytes},
+                             {"record targets", capacity * 16}});
+    return list;
 }
 
 const CacheOptions& RadianceCache::options() const {
@@ -102,10 +137,10 @@ BufferRange RadianceCache::queryWeights() const {
 BufferRange RadianceCache::counters() const {
     return state_->counters;
 }
-BufferRange RadianceCache::trainingPaths() const {
+const Buffer& RadianceCache::trainingPaths() const {
     return state_->trainingPaths;
 }
-BufferRange RadianceCache::trainingVertices() const {
+const Buffer& RadianceCache::trainingVertices() const {
     return state_->trainingVertices;
 }
 BufferRange RadianceCache::trainingQueries() const {
@@ -137,37 +172,50 @@ void RadianceCache::answer(FrameGraph& graph, BufferRange radiance, Weights weig
 
 // From training paths to records: where paths ended the cache predicts, light goes back along them.
 void RadianceCache::State::writeTargets(FrameGraph& graph, uint32_t paths) {
-    const gpu::RecordsParams params{paths, capacity, options.factorise ? 1u : 0u, options.meanDecay};
+    const auto forEachPart = [&](auto&& action) {
+        for (uint32_t first = 0; first < paths; first += kPathsTogether)
+            action(RowRange{first, std::min(kPathsTogether, paths - first)});
+    };
     graph.fill(word(counters, gpu::kTrainingPathCounter), paths);
-    trainer.infer(graph, RowCount{counters, gpu::kTrainingPathCounter, pathRows}, trainingQueries,
-                  predictions, options.selfTraining);
-    graph.pass(propagateTraining)
-        .readWrite(counters)
-        .read(trainingPaths)
-        .readWrite(trainingVertices)
-        .read(trainingQueries)
-        .read(predictions)
-        .read(state)
-        .write(pathSums)
-        .push(params)
-        .dispatch(paths);
+    forEachPart([&](const RowRange& part) { propagate(graph, part); });
     graph.pass(countRecords)
         .readWrite(counters)
         .read(pathSums)
         .write(firstRecords)
         .readWrite(state)
-        .push(params)
+        .push(recordsParams(paths))
         .dispatchGroups(1);
+    forEachPart([&](const RowRange& part) { writeRecordsOf(graph, part); });
+}
+
+void RadianceCache::State::propagate(FrameGraph& graph, const RowRange& part) {
+    const BufferRange ends = ofPart(trainingQueries, part, kInputBytes);
+    const RowCount rows{counters, gpu::kTrainingPathCounter, static_cast<uint32_t>(ends.bytes / kInputBytes),
+                        part.first};
+    trainer.infer(graph, rows, ends, predictions, options.selfTraining);
+    graph.pass(propagateTraining)
+        .readWrite(counters)
+        .read(ofPart(trainingPaths, part, kPathBytes))
+        .readWrite(ofPart(trainingVertices, part, kVertexBytes))
+        .read(ends)
+        .read(predictions)
+        .read(state)
+        .write(ofPart(pathSums, part, 16))
+        .push(recordsParams(part.rows))
+        .dispatch(part.rows);
+}
+
+void RadianceCache::State::writeRecordsOf(FrameGraph& graph, const RowRange& part) {
     graph.pass(writeRecords)
         .readWrite(counters)
-        .read(pathSums)
-        .read(firstRecords)
-        .read(trainingVertices)
+        .read(ofPart(pathSums, part, 16))
+        .read(ofPart(firstRecords, part, 4))
+        .read(ofPart(trainingVertices, part, kVertexBytes))
         .read(state)
         .write(recordInputs)
         .write(recordTargets)
-        .push(params)
-        .dispatch(uint64_t(paths) * gpu::kMaxTrainingVertices);
+        .push(recordsParams(part.rows))
+        .dispatch(uint64_t(part.rows) * gpu::kMaxTrainingVertices);
 }
 
 // Outputs that are no linear function of the last layer are left to learn what has changed.

@@ -38,8 +38,9 @@ public:
     RadianceCache(Device& device, const CacheOptions& options);
     ~RadianceCache();
 
-    // What the constructor will allocate beside the trainer's own, for Device::plan.
-    static std::vector<Device::PlannedBuffer> plannedBuffers(const CacheOptions& options);
+    // What the constructor will allocate, the trainer's buffers with it, for Device::plan.
+    static std::vector<Device::PlannedBuffer> planned(bool isCpu, const VkPhysicalDeviceLimits& limits,
+                                                      const CacheOptions& options);
 
     const CacheOptions& options() const;
     Trainer& trainer();
@@ -48,8 +49,8 @@ public:
     BufferRange queries() const;
     BufferRange queryWeights() const;
     BufferRange counters() const;
-    BufferRange trainingPaths() const;
-    BufferRange trainingVertices() const;
+    const Buffer& trainingPaths() const; // of which, as of the vertices, a wave binds its range
+    const Buffer& trainingVertices() const;
     BufferRange trainingQueries() const;
 
     void begin(FrameGraph& graph);

@@ -5,7 +5,7 @@
 #include "nrc/loss.h"
 #include "nrc/model_file.h"
 #include "nrc/optimizer.h"
-#include "nrc/row_padding.h"
+#include "nrc/trainer_sizes.h"
 #include "shared/network.h"
 #include <algorithm>
 #include <fmt/format.h>
@@ -30,42 +30,24 @@ Loss makeLoss(Device& device, const ModelConfig& config, uint32_t outputs) {
     return {device, config.loss, outputs, static_cast<float>(config.optimizer.lossScale), kGradientLimitHalf};
 }
 
-// A CPU learns from a batch in parts of so many rows: of 8 layers of 128 neurons their activations fit into a
-// binding (128 MiB in lavapipe), and each pass takes many times what starting it does.
-constexpr uint32_t kCpuPartRows = 16384;
-
-// Whole chunks of the weights' gradient.
-uint32_t rowsOfPart(const Device& device, uint32_t batchRows) {
-    if (!device.isCpu() || batchRows <= kCpuPartRows) return paddedRows(batchRows);
-    const uint32_t chunk = Network::chunkRows(batchRows);
-    return std::max(kCpuPartRows / chunk, 1u) * chunk;
-}
-
-uint32_t wholeParts(uint32_t batchRows, uint32_t partRows) {
-    return (std::max(batchRows, 1u) + partRows - 1) / partRows * partRows;
-}
-
-// What the passes of one batch hand on; reused from batch to batch, and what belongs to a part from part to
-// part.
+// What the passes of one batch hand on; reused from batch to batch, and from part to part of it.
 struct BatchBuffers {
-    BatchBuffers(Device& device, const Encoding& encoding, const Network& network, uint32_t rows,
-                 uint32_t partRows, uint32_t quadBytes)
-        : inputs(device, "batch inputs", uint64_t(rows) * encoding.inputQuads() * 16)
-        , targets(device, "batch targets", uint64_t(rows) * network.outputQuads() * 16)
-        , usable(device, "usable records", uint64_t(rows) * 4)
-        , encoded(device, "encoded inputs", uint64_t(rows) * encoding.width() / 4 * quadBytes)
-        , activations(device, "activations", network.activationBytes(partRows))
-        , results(device, "results", uint64_t(rows) * network.outputQuads() * 16)
-        , resultGradient(device, "result gradient", uint64_t(rows) * network.outputQuads() * 16)
-        , rowSums(device, "row losses", uint64_t(rows) * 16)
-        , layerGradients(device, "layer gradients", network.layerGradientBytes(partRows))
-        , encodedGradient(device, "gradient by encoded inputs",
-                          encoding.featureCount() > 0 ? uint64_t(rows) * encoding.width() / 4 * quadBytes
-                                                      : 16)
-        , partials(device, "partial weight gradients", network.partialBytes(rows)) {}
+    BatchBuffers(Device& device, const TrainerSizes& sizes)
+        : inputs(device, "batch inputs", sizes.inputBytes(sizes.batch.partRows))
+        , targets(device, "batch targets", sizes.resultBytes(sizes.batch.partRows))
+        , usable(device, "usable records", uint64_t(sizes.batch.partRows) * 4)
+        , encoded(device, "encoded inputs", sizes.encodedBytes(sizes.batch.partRows))
+        , activations(device, "activations", sizes.shape.activationBytes(sizes.batch.partRows))
+        , results(device, "results", sizes.resultBytes(sizes.batch.partRows))
+        , resultGradient(device, "result gradient", sizes.resultBytes(sizes.batch.partRows))
+        , layerGradients(device, "layer gradients", sizes.shape.layerGradientBytes(sizes.batch.partRows))
+        , encodedGradient(device, "gradient by encoded inputs", sizes.encodedGradientBytes())
+        , rowSums(device, "row losses", uint64_t(sizes.batch.rows) * 16)
+        , partials(device, "partial weight gradients", sizes.shape.partialBytes(sizes.batch.rows)) {}
 
-    Buffer inputs, targets, usable, encoded, activations, results, resultGradient, rowSums, layerGradients,
-        encodedGradient, partials;
+    Buffer inputs, targets, usable, encoded, activations, results, resultGradient, layerGradients,
+        encodedGradient;      // of a part
+    Buffer rowSums, partials; // of the batch
 };
 
 } // namespace
@@ -74,6 +56,7 @@ struct Trainer::State {
     State(Device& d, const ModelConfig& c, uint32_t inputs, uint32_t outputs, const TrainerOptions& o)
         : device(d)
         , options(o)
+        , sizes(d.isCpu(), d.limits(), c, inputs, outputs, o)
         , encoding(d, c.encoding, inputs, c.network.precision, o.touched)
         , network(d, c.network, encoding.width(), outputs)
         , loss(makeLoss(d, c, outputs))
@@ -82,15 +65,11 @@ struct Trainer::State {
                   GradientForm::Floats)
         , features(d, "features", encoding.featureCount(), c.optimizer.gridLearningRate, 0.0,
                    GradientForm::Sums)
-        , partRows(rowsOfPart(d, o.batchRows))
-        , batchRows(wholeParts(o.batchRows, partRows))
-        , inferRows(paddedRows(o.inferRows))
-        , quadBytes(c.network.precision == Precision::Half ? 8 : 16)
-        , batch(d, encoding, network, batchRows, partRows, quadBytes)
+        , batch(d, sizes)
         , state(makeBuffer(d, "training state", std::vector{Optimizer::initialState()}))
-        , packed(d, "packed weights", network.packedBytes())
-        , inferPacked(d, "packed weights of predictions", network.packedBytes())
-        , inferEncoded(d, "encoded queries", uint64_t(inferRows) * encoding.width() / 4 * quadBytes)
+        , packed(d, "packed weights", sizes.packedBytes())
+        , inferPacked(d, "packed weights of predictions", sizes.packedBytes())
+        , inferEncoded(d, "encoded queries", sizes.encodedBytes(sizes.inferRows))
         , beginBatch(d, kernels::begin_batch)
         , gatherRecords(d,
                         d.storesByAddress() ? kernels::gather_records_by_address : kernels::gather_records) {
@@ -104,21 +83,21 @@ struct Trainer::State {
     }
 
     void initialise();
-    void gather(FrameGraph& graph, const Records& records, uint32_t index, uint32_t count);
-    void learnPart(FrameGraph& graph, uint32_t first);
-    void learn(FrameGraph& graph, uint32_t number, const TrainingEffort& effort);
+    void gather(FrameGraph& graph, const Records& records, const RowRange& part);
+    void learnPart(FrameGraph& graph, const Records& records, const RowRange& part);
+    void learn(FrameGraph& graph, const Records& records, uint32_t number, const TrainingEffort& effort);
     void packForTraining(FrameGraph& graph);
     void packForInference(FrameGraph& graph, Weights which);
 
     Device& device;
     TrainerOptions options;
+    TrainerSizes sizes;
     ModelConfig config;
     Encoding encoding;
     Network network;
     Loss loss;
     Optimizer optimizer;
     ParameterGroup weights, features;
-    uint32_t partRows, batchRows, inferRows, quadBytes;
     BatchBuffers batch;
     Buffer state; // gpu::TrainingState
     Buffer packed, inferPacked, inferEncoded;
@@ -151,15 +130,13 @@ void Trainer::State::packForTraining(FrameGraph& graph) {
     packedIsCurrent = true;
 }
 
-void Trainer::State::gather(FrameGraph& graph, const Records& records, uint32_t index, uint32_t count) {
-    const gpu::BeginBatchParams begin{records.rows.index, records.rows.capacity, index, count,
-                                      static_cast<uint32_t>(options.seed ^ (options.seed >> 32))};
-    graph.pass(beginBatch).readWrite(state).read(records.rows.counters).push(begin).dispatchGroups(1);
+// The part's share of the batch that begin_batch has chosen.
+void Trainer::State::gather(FrameGraph& graph, const Records& records, const RowRange& part) {
     const gpu::GatherParams params{encoding.inputs(),
                                    network.outputs(),
                                    config.network.precision == Precision::Half ? kRecordLimitHalf
                                                                                : kRecordLimit,
-                                   0,
+                                   part.first,
                                    BufferRange(batch.inputs).address(),
                                    BufferRange(batch.targets).address()};
     graph.pass(gatherRecords, "gather_records")
@@ -170,40 +147,34 @@ void Trainer::State::gather(FrameGraph& graph, const Records& records, uint32_t 
         .write(batch.targets)
         .write(batch.usable)
         .push(params)
-        .dispatch(batchRows);
+        .dispatch(part.rows);
 }
 
-// Rows [first, first + partRows) of the batch, there and back.
-void Trainer::State::learnPart(FrameGraph& graph, uint32_t first) {
-    const RowCount rows{state, gpu::kBatchRowsWord, partRows, first};
-    const auto part = [&](const Buffer& buffer, uint64_t rowBytes) {
-        return BufferRange(buffer, first * rowBytes, partRows * rowBytes);
-    };
-    const uint64_t encodedBytes = uint64_t(encoding.width()) / 4 * quadBytes;
-    const uint64_t resultBytes = uint64_t(network.outputQuads()) * 16;
-    const BufferRange encoded = part(batch.encoded, encodedBytes), results = part(batch.results, resultBytes),
-                      resultGradient = part(batch.resultGradient, resultBytes);
-    network.forward(graph, rows, encoded, packed, batch.activations, results);
-    loss.evaluate(graph, partRows, state, batch.results, batch.targets, batch.usable, batch.resultGradient,
-                  batch.rowSums, first);
-    const bool hasFeatures = features.count > 0;
-    const BufferRange encodedGradient =
-        hasFeatures ? part(batch.encodedGradient, encodedBytes) : BufferRange(batch.encodedGradient);
-    network.backward(graph, rows, packed, batch.activations, results, resultGradient, batch.layerGradients,
-                     hasFeatures ? &encodedGradient : nullptr);
-    network.weightGradient(graph, rows, batchRows, encoded, batch.activations, batch.layerGradients,
-                           batch.partials);
+// There and back.
+void Trainer::State::learnPart(FrameGraph& graph, const Records& records, const RowRange& part) {
+    const RowCount rows{state, gpu::kBatchRowsWord, part.rows, part.first};
+    gather(graph, records, part);
+    encoding.encode(graph, rows, batch.inputs, features.values, batch.encoded);
+    network.forward(graph, rows, batch.encoded, packed, batch.activations, batch.results);
+    loss.evaluate(graph, part.rows, state, batch.results, batch.targets, batch.usable, batch.resultGradient,
+                  {batch.rowSums, uint64_t(part.first) * 16, uint64_t(part.rows) * 16}, part.first);
+    const BufferRange encodedGradient = batch.encodedGradient;
+    network.backward(graph, rows, packed, batch.activations, batch.results, batch.resultGradient,
+                     batch.layerGradients, features.count > 0 ? &encodedGradient : nullptr);
+    network.weightGradient(graph, rows, sizes.batch.rows, batch.encoded, batch.activations,
+                           batch.layerGradients, batch.partials);
+    if (features.count > 0)
+        encoding.accumulateGradient(graph, rows, batch.inputs, batch.encodedGradient, features.gradients);
 }
 
 // `number`: the batch's in the first pass, or gpu::kLaterPass.
-void Trainer::State::learn(FrameGraph& graph, uint32_t number, const TrainingEffort& effort) {
-    const RowCount rows{state, gpu::kBatchRowsWord, batchRows};
-    encoding.encode(graph, rows, batch.inputs, features.values, batch.encoded);
-    for (uint32_t first = 0; first < batchRows; first += partRows) learnPart(graph, first);
+void Trainer::State::learn(FrameGraph& graph, const Records& records, uint32_t number,
+                           const TrainingEffort& effort) {
+    for (uint32_t first = 0; first < sizes.batch.rows; first += sizes.batch.partRows)
+        learnPart(graph, records, sizes.batch.partFrom(first));
     loss.endBatch(graph, state, batch.rowSums, number);
-    network.sumGradients(graph, batchRows, batch.partials, weights.gradients, state, gpu::kGradientScaleWord);
-    if (features.count > 0)
-        encoding.accumulateGradient(graph, rows, batch.inputs, batch.encodedGradient, features.gradients);
+    network.sumGradients(graph, sizes.batch.rows, batch.partials, weights.gradients, state,
+                         gpu::kGradientScaleWord);
     optimizer.step(graph, state, groups(), effort.emaDecay, effort.learningRate);
     packedIsCurrent = false;
     inferPackedHolds.reset();
@@ -216,6 +187,12 @@ Trainer::Trainer(Device& device, const ModelConfig& config, uint32_t inputs, uin
 }
 
 Trainer::~Trainer() = default;
+
+std::vector<Device::PlannedBuffer> Trainer::planned(bool isCpu, const VkPhysicalDeviceLimits& limits,
+                                                    const ModelConfig& config, uint32_t inputs,
+                                                    uint32_t outputs, const TrainerOptions& options) {
+    return TrainerSizes(isCpu, limits, config, inputs, outputs, options).planned();
+}
 
 const ModelConfig& Trainer::config() const {
     return state_->config;
@@ -232,29 +209,42 @@ uint64_t Trainer::parameterCount() const {
 
 void Trainer::train(FrameGraph& graph, const Records& records, uint32_t batches,
                     const TrainingEffort& effort) {
-    if (batches == 0 || uint64_t(records.rows.capacity) > uint64_t(batches) * state_->batchRows)
+    if (batches == 0 || uint64_t(records.rows.capacity) > uint64_t(batches) * state_->sizes.batch.rows)
         fail(ExitCode::Internal, "trainer: {} records in {} steps of at most {}", records.rows.capacity,
-             batches, state_->batchRows);
+             batches, state_->sizes.batch.rows);
     const uint32_t steps = effort.steps == 0 ? batches : effort.steps;
+    const uint64_t seed = state_->options.seed;
     for (uint32_t step = 0; step < steps; ++step) {
         state_->packForTraining(graph);
-        state_->gather(graph, records, step % batches, batches);
-        state_->learn(graph, step < batches ? step : gpu::kLaterPass, effort);
+        const gpu::BeginBatchParams begin{records.rows.index, records.rows.capacity, step % batches, batches,
+                                          static_cast<uint32_t>(seed ^ (seed >> 32))};
+        graph.pass(state_->beginBatch)
+            .readWrite(state_->state)
+            .read(records.rows.counters)
+            .push(begin)
+            .dispatchGroups(1);
+        state_->learn(graph, records, step < batches ? step : gpu::kLaterPass, effort);
         graph.cut();
     }
 }
 
 void Trainer::infer(FrameGraph& graph, const RowCount& rows, BufferRange inputs, BufferRange results,
                     Weights weights) {
-    if (rows.capacity > state_->inferRows)
-        fail(ExitCode::Internal, "trainer: {} rows to predict, at most {} were planned", rows.capacity,
-             state_->inferRows);
     state_->packForInference(graph, weights);
-    const ParameterGroup& features = state_->features;
-    state_->encoding.encode(graph, rows, inputs,
-                            weights == Weights::Ema ? features.averages : features.values,
-                            state_->inferEncoded);
-    state_->network.infer(graph, rows, state_->inferEncoded, state_->inferPacked, results);
+    const BufferRange features =
+        weights == Weights::Ema ? state_->features.averages : state_->features.values;
+    const TrainerSizes& sizes = state_->sizes;
+    for (uint32_t first = 0; first < rows.capacity; first += sizes.inferRows) {
+        const uint32_t count = std::min(sizes.inferRows, rows.capacity - first);
+        const RowCount part{rows.counters, rows.index, count, rows.first + first};
+        const auto ofPart = [&](const BufferRange& all, uint64_t bytes) {
+            return BufferRange(*all.buffer, all.offset + bytes / count * first, bytes);
+        };
+        state_->encoding.encode(graph, part, ofPart(inputs, sizes.inputBytes(count)), features,
+                                state_->inferEncoded);
+        state_->network.infer(graph, part, state_->inferEncoded, state_->inferPacked,
+                              ofPart(results, sizes.resultBytes(count)));
+    }
 }
 
 OutputLayer Trainer::outputLayer() const {

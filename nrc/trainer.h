@@ -8,19 +8,13 @@
 
 #include "nrc/encoding.h"
 #include "nrc/network.h"
+#include "nrc/trainer_options.h"
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <vector>
 
 namespace irradia {
-
-struct TrainerOptions {
-    uint32_t batchRows = 1u << 14;  // records of a step at most; rounded up to gpu::kRowPadding
-    uint32_t inferRows = 1u << 14;  // rows of a prediction at most; likewise
-    uint64_t seed = 1;              // of the initial parameters and of the shuffling
-    std::vector<glm::vec3> touched; // for a SparseGrid
-};
 
 // Which parameters a prediction uses.
 enum class Weights { Ema, Raw };
@@ -65,6 +59,11 @@ public:
             const TrainerOptions& options = {});
     ~Trainer();
 
+    // The buffers that the constructor allocates, but for some of a few records; throws what it does.
+    static std::vector<Device::PlannedBuffer> planned(bool isCpu, const VkPhysicalDeviceLimits& limits,
+                                                      const ModelConfig& config, uint32_t inputs,
+                                                      uint32_t outputs, const TrainerOptions& options);
+
     const ModelConfig& config() const; // form resolved
     const Network& network() const;
     const Encoding& encoding() const;
@@ -76,7 +75,8 @@ public:
     void train(FrameGraph& graph, const Records& records, uint32_t batches = 1,
                const TrainingEffort& effort = {});
 
-    // results: rows of ceil(outputs / 4) single-precision quads. rows.capacity is at most inferRows.
+    // results: rows of ceil(outputs / 4) single-precision quads. inputs and results hold rows.capacity rows at
+    // least.
     void infer(FrameGraph& graph, const RowCount& rows, BufferRange inputs, BufferRange results,
                Weights weights = Weights::Ema);
 

@@ -51,7 +51,7 @@ NrcOptions options(bool adapts) {
 
 double truth(bool on) {
     const Scene scene = room(on);
-    const GpuScene gpu = uploadScene(device(), packScene(scene), buildBvh(scene), sceneBounds(scene));
+    const GpuScene gpu = uploadScene(device(), packScene(scene), buildBvh(scene));
     PathTracerOptions paths = options(false).paths;
     paths.maxBounces = 32;
     paths.samplesPerFrame = 128; // the mean's error is 1 %
@@ -65,7 +65,7 @@ double truth(bool on) {
 class SwitchedRoom {
 public:
     explicit SwitchedRoom(bool adapts)
-        : gpu_(uploadScene(device(), packScene(room(true), bothStates()), buildBvh(room(true)), bounds()))
+        : gpu_(uploadScene(device(), packScene(room(true), bothStates()), buildBvh(room(true))))
         , renderer_(device(), gpu_, bounds(), options(adapts)) {}
 
     // Means over the truth's mean, of 30 frames in groups of 5.
@@ -213,17 +213,20 @@ TEST_CASE("what goes to both sides is noise, what goes to one is not") {
 }
 
 TEST_CASE("adaptation is configured as JSON") {
-    CHECK(parseNrcConfig("{}", "x").adaptation.on);
-    CHECK_FALSE(parseNrcConfig(R"({"adaptation": "off"})", "x").adaptation.on);
-    const auto config = parseNrcConfig(R"({"adaptation": {"most_steps": 8, "full": 2}})", "x").adaptation;
+    const auto parse = [](const std::string& adaptation) {
+        return parseNrcConfig(R"({"base": "balanced", "adaptation": )" + adaptation + "}", "x").adaptation;
+    };
+    CHECK(parse("{}") == AdaptationConfig{});
+    CHECK_FALSE(parse("\"off\"").on);
+    const auto config = parse(R"({"most_steps": 8, "full": 2})");
     CHECK((config.on && config.mostSteps == 8 && config.full == 2.0f && config.youth == 512));
-    CHECK(parseNrcConfig(R"({"adaptation": {"youth": 64}})", "x").adaptation.youth == 64);
-    CHECK(parseNrcConfig(R"({"adaptation": {"settling": 9}})", "x").adaptation.settling == 9);
-    CHECK(parseNrcConfig(R"({"adaptation": {"smoothing": 0.5}})", "x").adaptation.smoothing == 0.5f);
-    for (const char* text : {R"({"adaptation": "maybe"})", R"({"adaptation": {"full": 0.1}})",
-                             R"({"adaptation": {"shortest_ema": 1}})", R"({"adaptation": {"smoothing": 1}})",
-                             R"({"adaptation": 3})"})
-        expectError(ExitCode::BadData, "adaptation", [&] { parseNrcConfig(text, "x"); });
+    CHECK(parse(R"({"youth": 64})").youth == 64);
+    CHECK(parse(R"({"settling": 9})").settling == 9);
+    CHECK(parse(R"({"smoothing": 0.5})").smoothing == 0.5f);
+    CHECK(parse(R"({"threshold": 0.3, "full": 0.3})").full == 0.3f); // at once
+    for (const char* text :
+         {R"("maybe")", R"({"full": 0.1})", R"({"shortest_ema": 1})", R"({"smoothing": 1})", "3"})
+        expectError(ExitCode::BadData, "adaptation", [&] { parse(text); });
 }
 
 // Mean over truth of five frames each after the lamp went off: 1.65 1.03 1.04 1.03 1.03 0.99 with adaptation,

@@ -33,7 +33,7 @@ const GpuScene& furnace() {
         reference::addSphereFromInside(made, wall, glm::vec3(0.0f), 1.0f, 16);
         SceneRecords records = packScene(made);
         packAreaTable(records);
-        return new GpuScene(uploadScene(device(), records, buildBvh(made), sceneBounds(made)));
+        return new GpuScene(uploadScene(device(), records, buildBvh(made)));
     }();
     return *scene;
 }

@@ -163,6 +163,7 @@ struct Propagated {
     std::vector<uint32_t> counts;
     std::vector<double> rootSums, largest;
     uint32_t clamped = 0;
+    std::vector<uint32_t> gathers; // 1 where the path has gathered light
 };
 
 std::vector<Vec3> randomPredictions(size_t count) {
@@ -208,6 +209,7 @@ Propagated propagate(RecordAccess form, const std::vector<TrainingPath>& paths,
         result.counts.push_back(r.x);
         result.rootSums.push_back(double(std::bit_cast<float>(r.y)));
         result.largest.push_back(double(std::bit_cast<float>(r.z)));
+        result.gathers.push_back(r.w);
     }
     result.clamped = bench.counter(gpu::kClampedPredictions);
     return result;
@@ -228,6 +230,9 @@ Propagated twin(const std::vector<TrainingPath>& paths, const std::vector<Vec3>&
         result.counts.push_back(static_cast<uint32_t>(paths[p].vertices.size()));
         double& rootSum = result.rootSums.emplace_back(0.0);
         double& largest = result.largest.emplace_back(0.0);
+        uint32_t& gathers = result.gathers.emplace_back(0);
+        for (const reference::TrainingVertex& v : paths[p].vertices)
+            if (reference::maxComponent(v.gathered) > 0.0) gathers = 1;
         for (const Vec3& target : result.targets.back()) {
             const double y = reference::luminance(target);
             rootSum += y >= 0.0 && y < reference::kLargestRadiance ? std::sqrt(y) : 0.0;
@@ -242,7 +247,7 @@ Propagated twin(const std::vector<TrainingPath>& paths, const std::vector<Vec3>&
 constexpr double kPropagated = 2e-6;
 
 double worstOf(const Propagated& actual, const Propagated& expected) {
-    double worst = actual.counts == expected.counts ? 0.0 : kInfinity;
+    double worst = actual.counts == expected.counts && actual.gathers == expected.gathers ? 0.0 : kInfinity;
     for (size_t p = 0; p < expected.targets.size(); ++p) {
         double size = 1e-3;
         for (const Vec3& t : expected.targets[p]) size = std::max(size, reference::maxComponent(t));

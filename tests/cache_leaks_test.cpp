@@ -40,9 +40,9 @@ ModelConfig modelWith(const std::string& positionEncoding) {
     return parseModelConfig(fmt::format(R"({{
         "encoding": {{"otype": "Composite", "nested": [{}, {{"otype": "Identity"}}]}},
         "network": {{"otype": "FullyFusedMLP", "n_neurons": 32, "n_hidden_layers": 2}},
-        "loss": {{"otype": "RelativeL2Luminance"}},
+        "loss": {{"otype": "RelativeL2Luminance", "epsilon": 0.01}},
         "optimizer": {{"otype": "Ema", "decay": 0.9, "nested": {{"otype": "Adam", "learning_rate": 0.01,
-            "beta1": 0.9, "beta2": 0.99, "epsilon": 1e-15}}}}}})",
+            "beta1": 0.9, "beta2": 0.99, "epsilon": 1e-15, "l2_reg": 1e-6}}}}}})",
                                         positionEncoding),
                             "model");
 }

@@ -390,8 +390,8 @@ void learn(Device& device, RadianceCache& cache, const std::vector<TrainingPath>
     cache.begin(graph);
     graph.execute();
     const TrainingBuffers packed = packPaths(paths);
-    upload<glm::uvec4>(device, *cache.trainingPaths().buffer, packed.paths);
-    upload<glm::uvec4>(device, *cache.trainingVertices().buffer, packed.vertices);
+    upload<glm::uvec4>(device, cache.trainingPaths(), packed.paths);
+    upload<glm::uvec4>(device, cache.trainingVertices(), packed.vertices);
     upload<glm::uvec4>(device, *cache.trainingQueries().buffer, packed.queries);
     cache.learn(graph, static_cast<uint32_t>(paths.size()));
     graph.execute();

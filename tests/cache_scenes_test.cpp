@@ -60,7 +60,7 @@ bool isInUnitCube(const Values& inputs) {
 GpuScene toGpu(const Scene& scene) {
     SceneRecords records = packScene(scene);
     packAreaTable(records);
-    return uploadScene(validatedDevice(), records, buildBvh(scene), sceneBounds(scene));
+    return uploadScene(validatedDevice(), records, buildBvh(scene));
 }
 
 Vec3 positionOf(const Values& inputs, const reference::CacheBox& box) {
@@ -134,8 +134,8 @@ Vec3 nearestAxis(const Vec3& v) {
 }
 
 // Vertices as they follow from the positions of those that are recorded.
-std::vector<CacheVertex> rebuild(const TrainingPath& path, const reference::CacheBox& box, const Vec3& camera,
-                                 double rayEpsilon) {
+std::vector<CacheVertex> rebuild(const TrainingPath& path, const reference::CacheBox& box,
+                                 const Vec3& camera) {
     std::vector<Values> all;
     for (const reference::TrainingVertex& v : path.vertices) all.push_back(v.inputs);
     if (path.end) all.push_back(*path.end);
@@ -149,7 +149,7 @@ std::vector<CacheVertex> rebuild(const TrainingPath& path, const reference::Cach
         v.view = (origin - v.position) / v.distance;
         if (!vertices.empty()) v.pdf = glm::dot(vertices.back().geometricNormal, -v.view) / kPi;
         v.goesOn = true;
-        origin = v.position + rayEpsilon * v.geometricNormal;
+        origin = v.position;
         vertices.push_back(v);
     }
     if (!vertices.empty()) vertices.back().goesOn = path.end.has_value();
@@ -160,13 +160,11 @@ struct Agreement {
     size_t compared = 0, wrong = 0, queries = 0, unknown = 0;
 };
 
-Agreement compare(const Recorded& recorded, const CacheSettings& settings, const Vec3& camera,
-                  double rayEpsilon) {
+Agreement compare(const Recorded& recorded, const CacheSettings& settings, const Vec3& camera) {
     Agreement result;
     const auto stop = [](size_t) { return false; };
     for (const TrainingPath& path : recorded.paths) {
-        const CacheWalk twin =
-            reference::walk(rebuild(path, settings.box, camera, rayEpsilon), settings, false, stop);
+        const CacheWalk twin = reference::walk(rebuild(path, settings.box, camera), settings, false, stop);
         if (twin.isUncertain || path.vertices.size() >= reference::kMaxRecorded) {
             result.unknown++; // of the longest, not all vertices are recorded
             continue;
@@ -191,7 +189,7 @@ TEST_CASE("traced paths ask and end where the spread rule says") {
             CacheSettings settings = recorded.settings;
             settings.spread *= factor;
             settings.trainingSpread *= factor;
-            return compare(recorded, settings, Vec3(camera.position), double(gpu.rayEpsilon));
+            return compare(recorded, settings, Vec3(camera.position));
         };
         const Agreement agreement = compared(1.0);
         INFO("c = " << spread << ": " << agreement.compared << " compared, " << agreement.unknown
@@ -219,7 +217,7 @@ TEST_CASE("paths from surfaces end where the spread rule says, as seen from the 
             const Vec3 viewer =
                 positionOf(first, settings.box) + double(kDistance) * directionOf(first[3], first[4]);
             const auto stop = [](size_t) { return false; };
-            const auto vertices = rebuild(path, settings.box, viewer, double(gpu.rayEpsilon));
+            const auto vertices = rebuild(path, settings.box, viewer);
             const TrainingPath twin = reference::walk(vertices, settings, false, stop).training;
             return twin.end.has_value() == path.end.has_value() ? twin.vertices.size() : 0;
         };

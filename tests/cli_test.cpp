@@ -106,6 +106,29 @@ TEST_CASE("wrong usage is one sentence and 64") {
     checkRefused("bench", 64, "subcommand");
 }
 
+TEST_CASE("options of another method are refused by name, whatever their value") {
+    for (const std::string option : {"--preset balanced", "--network a.json", "--warmup 0", "--warmup 8",
+                                     "--view prediction", "--view bounce-heat"}) {
+        const std::string name = option.starts_with("--view") ? option : option.substr(0, option.find(' '));
+        checkRefused("render scene.glb -o a.exr --method pt " + option, 64,
+                     name + " is for the methods with a cache; --method pt has none");
+    }
+    // Without indirect light there is nothing to cache.
+    checkRefused("render scene.glb -o a.exr --max-bounces 0 --preset fast", 64, "--method pt has none");
+    checkRefused("bench frame scene.glb --method pt --preset fast", 64, "--method pt has none");
+    checkRefused("render scene.glb -o a.exr --method none --preset fast", 64,
+                 "there are pt, nrc and cache-view");
+    // Those of its own it takes: what is missing is the scene.
+    checkRefused("render scene.glb -o a.exr --method pt --view error-sign --reference b.exr", 66, "b.exr");
+    checkRefused("render scene.glb -o a.exr --method nrc --preset fast --warmup 8", 66, "scene.glb");
+}
+
+TEST_CASE("help describes the files that options read") {
+    const std::string help = irradiaProgram("render --help").out;
+    for (const char* key : {"position", "look_at", "up", "vfov_deg", "env", "base", "frame", "restart"})
+        CHECK(help.find('"' + std::string(key) + '"') != std::string::npos);
+}
+
 TEST_CASE("every number is one in whole and in range, or refused in one sentence") {
     const std::string render = "render scene.glb -o a.exr ";
     const std::pair<std::string, std::string> cases[] = {

@@ -2,6 +2,7 @@
 #include "engine/image/image.h"
 #include "tests/support/picture_bytes.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/whole_model.h"
 #include <algorithm>
 #include <array>
 #include <catch2/catch_test_macros.hpp>
@@ -16,6 +17,7 @@ using namespace irradia;
 using irradia::test::JpegForm;
 using irradia::test::makeJpeg;
 using irradia::test::TemporaryFolder;
+using irradia::test::wholeModel;
 using nlohmann::json;
 
 namespace {
@@ -260,7 +262,8 @@ TEST_CASE("what cannot be used is named") {
     const std::vector<uint8_t> good = folder.read("good.png");
     folder.write("cut.png", std::span(good).first(100));
     folder.write("bad.json", bytes("{\"network\": "));
-    folder.write("wrong.json", bytes(R"({"encoding": {"otype": "HashGrid", "levels": 3}})"));
+    folder.write("wrong.json", bytes(wholeModel(R"({"encoding": {"otype": "HashGrid", "levels": 3}})")));
+    folder.write("part.json", bytes(R"({"network": {"n_neurons": 64}})"));
     folder.write("bad.csv", bytes("step,seconds,loss,psnr\n1,0.5,1\n"));
     folder.write("other.csv", bytes("1,0.5,1,3\n"));
     LayeredImage nan;
@@ -277,6 +280,7 @@ TEST_CASE("what cannot be used is named") {
     checkRefused(folder, "good.png -o out.exr --network bad.json", 65, "bad.json: not JSON");
     checkRefused(folder, "good.png -o out.exr --network wrong.json", 65,
                  "wrong.json: unknown key encoding.levels");
+    checkRefused(folder, "good.png -o out.exr --network part.json", 65, "part.json: encoding is missing");
     checkRefused(folder, "good.png -o missing/out.exr", 74, "missing/out.exr");
     checkRefused(folder, "good.png -o out.exr --chart a.svg --against bad.csv", 65,
                  "bad.csv: line 2 is not four numbers");

@@ -70,7 +70,7 @@ public:
         , bounds_(sceneBounds(scene_)) {
         SceneRecords records = packScene(scene_);
         packAreaTable(records);
-        gpu_ = uploadScene(device(), records, buildBvh(scene_), bounds_);
+        gpu_ = uploadScene(device(), records, buildBvh(scene_));
         truth_ = pathTraced();
     }
 

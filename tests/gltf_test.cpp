@@ -339,6 +339,8 @@ TEST_CASE("Camera files and environments") {
     check(R"({"camera": {"position": [0, 0, 0], "look_at": [0, 0, 0], "vfov_deg": 40}})", "camera.look_at");
     check(R"({"camera": {"position": [0, 0, 0], "look_at": [0, 9, 0], "vfov_deg": 40}})", "camera.up");
     check(R"({"camera": {"position": [0, 0, 0], "look_at": [0, 0, 1], "vfov_deg": 180}})", "camera.vfov_deg");
+    check(R"({"camera": {"position": [0, 0, 0], "look_at": [0, 0, 1], "vfov_deg": 40, "fov": 50}})",
+          "unknown key \"fov\", there are position, look_at, up, vfov_deg, aspect in 'camera'");
     check(R"({"camera": {"position": [0, 0, 0], "look_at": [0, 0, 1], "vfov_deg": 40}, "env": [1, 2]})",
           "env");
 

@@ -11,12 +11,13 @@ using irradia::test::TemporaryFolder;
 
 namespace {
 
-std::vector<std::string> render(const TemporaryFolder& folder, std::vector<std::string> more) {
+std::vector<std::string> render(const TemporaryFolder& folder, const std::vector<std::string>& more,
+                                const std::string& size = "16x16") {
     std::vector<std::string> all{IRRADIA_BIN_DIR "/irradia",
                                  "render",
                                  IRRADIA_BIN_DIR "/../scenes/cornell-box.glb",
                                  "--size",
-                                 "16x16",
+                                 size,
                                  "--max-bounces",
                                  "2",
                                  "--progress",
@@ -86,8 +87,7 @@ TEST_CASE("a second signal ends a render at once") {
     const TemporaryFolder folder;
     writeOld(folder);
     // A frame of minutes.
-    RunningProgram program(render(folder, {"--method", "pt", "--size", "1024x1024", "--spp", "256"}),
-                           folder / "log");
+    RunningProgram program(render(folder, {"--method", "pt", "--spp", "256"}, "1024x1024"), folder / "log");
     REQUIRE(program.waitForLog("render: method pt"));
     program.send(SIGINT);
     std::this_thread::sleep_for(std::chrono::milliseconds(300)); // so that it is a second request

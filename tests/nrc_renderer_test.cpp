@@ -25,8 +25,8 @@ struct Loaded {
         : scene(loadScene(IRRADIA_BIN_DIR "/../scenes/" + name + ".glb"))
         , camera(scene.cameras.at(0))
         , bounds(sceneBounds(scene))
-        , gpu(uploadScene(device(), packScene(scene), buildBvh(scene), bounds))
-        , withAreaTable(uploadScene(device(), recordsWithTable(), buildBvh(scene), bounds)) {}
+        , gpu(uploadScene(device(), packScene(scene), buildBvh(scene)))
+        , withAreaTable(uploadScene(device(), recordsWithTable(), buildBvh(scene))) {}
     SceneRecords recordsWithTable() const {
         SceneRecords records = packScene(scene);
         packAreaTable(records);
@@ -79,7 +79,7 @@ TEST_CASE("neither method cuts bright samples: lamps 2^20 times as strong give 2
     constexpr float kFactor = 1 << 20;
     Scene bright = cornell().scene;
     for (Material& material : bright.materials) material.emission *= kFactor;
-    const GpuScene gpu = uploadScene(device(), packScene(bright), buildBvh(bright), cornell().bounds);
+    const GpuScene gpu = uploadScene(device(), packScene(bright), buildBvh(bright));
     NrcOptions never = options(48);
     never.config.spread = never.config.trainingSpread = std::numeric_limits<float>::infinity();
     NrcRenderer renderer(device(), gpu, cornell().bounds, never);
@@ -182,18 +182,20 @@ TEST_CASE("a share of uniform records changes neither the number of records nor 
 }
 
 TEST_CASE("the share of uniform records is configured as JSON, and needs an area table") {
-    CHECK(parseNrcConfig("{}", "x").uniformShare == 0.0f);
-    CHECK(parseNrcConfig(R"({"training": {"uniform_share": 0.05}})", "x").uniformShare == 0.05f);
+    CHECK(nrcPreset("balanced").uniformShare == 0.0f);
+    const auto share = [](const std::string& value) {
+        return parseNrcConfig(R"({"base": "fast", "training": {"uniform_share": )" + value + "}}", "x")
+            .uniformShare;
+    };
+    CHECK(share("0.05") == 0.05f);
     for (const char* value : {"-0.01", "1.5", "\"some\""})
-        expectError(ExitCode::BadData, "training.uniform_share", [&] {
-            parseNrcConfig(std::string(R"({"training": {"uniform_share": )") + value + "}}", "x");
-        });
+        expectError(ExitCode::BadData, "training.uniform_share", [&] { share(value); });
     NrcOptions uniform = options(16);
     uniform.config.uniformShare = 0.05f;
     NrcRenderer renderer(device(), cornell().gpu, cornell().bounds, uniform);
     expectError(ExitCode::Internal, "area table", [&] { renderer.renderFrame(cornell().camera, 0); });
     // Without surfaces there is nothing to sample, and no table.
-    const GpuScene nothing = uploadScene(device(), packScene(Scene{}), buildBvh(Scene{}), Bounds{});
+    const GpuScene nothing = uploadScene(device(), packScene(Scene{}), buildBvh(Scene{}));
     NrcRenderer empty(device(), nothing, Bounds{}, uniform);
     empty.renderFrame(cornell().camera, 0);
     CHECK(empty.counts().records == 0);

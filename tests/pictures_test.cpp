@@ -108,7 +108,7 @@ TEST_CASE("pictures that do not fit, names that would lose something and unknown
     checkRefused(folder, "mean a.exr -o mean.exr", 65, "beyond half floats");
     checkRefused(folder, "row a.exr none.exr -o row.png", 66, "none.exr");
     checkRefused(folder, "row a.exr -o row.exr", 64, ".png");
-    checkRefused(folder, "mean a.exr small.exr -o ./small.exr", 64, "would replace");
+    checkRefused(folder, "mean a.exr small.exr -o ./small.exr", 64, "would be lost");
     checkRefused(folder, "mean a.exr -o nowhere/mean.exr", 74, "nowhere");
     checkRefused(folder, "row a.exr -o row.png --scale 0", 64, "scale");
     checkRefused(folder, "column a.exr -o row.png", 64, "subcommand");

@@ -46,3 +46,18 @@ TEST_CASE("a pass that misses frames took no time in them") {
     CHECK(profiler.lastFrame("late") == 0);
     CHECK(profiler.lastFrame("unheard of") == 0);
 }
+
+TEST_CASE("of many frames some are kept, evenly") {
+    Profiler profiler;
+    constexpr int kFrames = 100000;
+    for (int frame = 0; frame < kFrames; ++frame) {
+        profiler.record("scatter", frame);
+        profiler.endFrame(2.0 * frame);
+    }
+    CHECK(profiler.frames() == kFrames);
+    CHECK(profiler.rows()[0].runs == kFrames);
+    CHECK(profiler.lastFrame("scatter") == kFrames - 1);
+    // Kept are at least 2,048 of them, every 32nd.
+    CHECK_THAT(profiler.rows()[0].p50, Catch::Matchers::WithinAbs(0.5 * kFrames, 64));
+    CHECK_THAT(profiler.wall().p90, Catch::Matchers::WithinAbs(1.8 * kFrames, 128));
+}

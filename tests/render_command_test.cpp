@@ -2,6 +2,7 @@
 // whole, and bad input ends in one sentence and its exit code.
 #include "engine/image/display.h"
 #include "engine/image/image.h"
+#include "nrc/renderer/nrc_config.h"
 #include "tests/support/temporary_folder.h"
 #include <algorithm>
 #include <catch2/catch_test_macros.hpp>
@@ -55,6 +56,19 @@ TEST_CASE("the same command gives the same pixels, with one thread or two, at an
     for (const char* name : {"version", "device", "driver", "seed", "method", "options", "sceneHash"})
         CHECK(images[0].attributes.count(std::string("irradia.") + name) == 1);
     for (const float v : images[0].channels.at("R")) CHECK(std::isfinite(v));
+
+    // What a pixel saw lies in it: means of its samples, whose cone is convex.
+    const glm::mat4 toCamera = images[0].matrices.at("worldToCamera"),
+                    toNdc = images[0].matrices.at("worldToNDC");
+    const std::vector<glm::vec3> places = images[0].rgb("P", "XYZ");
+    for (size_t i = 0; i < places.size(); ++i) {
+        const glm::vec4 seen = toNdc * glm::vec4(places[i], 1.0f);
+        const glm::vec2 pixel = glm::vec2(seen) / seen.w * glm::vec2(48, 36);
+        CHECK(std::abs(pixel.x - (float(i % 48) + 0.5f)) < 0.501f); // positions round
+        CHECK(std::abs(pixel.y - (float(i / 48) + 0.5f)) < 0.501f);
+        const float depth = images[0].channels.at("Z")[i];
+        CHECK(std::abs((toCamera * glm::vec4(places[i], 1.0f)).z - depth) < 1e-4f * depth);
+    }
 }
 
 TEST_CASE("the cache trains to the same bits with one thread or two, with barriers or without") {
@@ -205,7 +219,7 @@ TEST_CASE("an output in place of an input is refused, by whatever name, and the 
         {"-o a.exr --stats a.gltf", "is the scene"},
         {"-o a.exr --stats ../$(basename $PWD)/camera.json --camera camera.json", "is the camera"},
         {"-o sky.exr --env sky.exr", "is the environment"},
-        {"-o sky.exr --env sky.exr:sun", "is the environment"},
+        {"-o ./sky.exr --env sky.exr:sun", "is the environment"},
         {"-o sky.exr --camera camera.json", "is the environment"},
         {"-o sky.exr --view error-sign --reference sky.exr", "is the reference"},
         {"-o a.exr --stats changes.json --changes changes.json", "is the list of changes"},
@@ -351,9 +365,9 @@ TEST_CASE("warm-up sees the scene of the first frame") {
         return box.render("[" + lampAt(frame, 4) + "]", " --method nrc --preset fast --frames 3-4" + warmup)
             .channels.at("G");
     };
-    const auto warm = green(3, " --warmup 4");
-    CHECK(warm == green(0, " --warmup 4"));
-    CHECK(warm != green(3, " --warmup 1")); // it is seen what the cache has learned
+    const auto warm = green(3, " --warmup 48");
+    CHECK(warm == green(0, " --warmup 48"));
+    CHECK(warm != green(3, " --warmup 0")); // it is seen what the cache has learned
 }
 
 TEST_CASE("a change that never comes is refused by name") {
@@ -392,6 +406,42 @@ TEST_CASE("a script that cannot be used is refused in a sentence") {
     CHECK(run("", "render " + kScenes + "cornell-box.glb -o o.exr --changes nowhere.json").code == 66);
 }
 
+TEST_CASE("a picture says with which preset it was made") {
+    const TemporaryFolder folder;
+    const auto presetOf = [&](const std::string& options) {
+        const std::string file = (folder / "a.exr").string();
+        const Run result = run("", "render " + kScenes + "cornell-box.glb --size 8x8 --max-bounces 1 " +
+                                       options + " -o " + file);
+        INFO(result.log);
+        REQUIRE(result.code == 0);
+        return readExr(file).attributes.at("irradia.preset");
+    };
+    const std::string own = (folder / "own.json").string(), model = (folder / "model.json").string();
+    std::ofstream(own) << R"({"base": "fast", "training": {"steps": 3}})";
+    std::ofstream(model) << R"({"base": "fast", "network": {"n_neurons": 32}})";
+    const std::string inherited = presetOf("--method nrc --warmup 1 --preset " + own + " --network " + model);
+    NrcConfig expected = nrcPreset("fast");
+    expected.steps = 3;
+    expected.model.network.width = 32;
+    CHECK(parseNrcConfig(inherited, "attribute") == expected);
+
+    // What the picture says renders it again.
+    std::ofstream(folder / "again.json") << inherited;
+    CHECK(presetOf("--method nrc --warmup 1 --preset " + (folder / "again.json").string()) == inherited);
+}
+
+TEST_CASE("a partial preset or model is refused by what it lacks") {
+    const TemporaryFolder folder;
+    const std::string file = (folder / "part.json").string();
+    std::ofstream(file) << R"({"network": {"n_neurons": 64}})";
+    const Run network =
+        run("", "render " + kScenes + "cornell-box.glb --method nrc --preset balanced --network " + file +
+                    " -o " + (folder / "never.exr").string());
+    INFO(network.log);
+    CHECK(network.code == 65);
+    CHECK(network.log.find("part.json: encoding is missing, and no \"base\"") != std::string::npos);
+}
+
 TEST_CASE("bad input ends in a sentence and an exit code, and leaves the old file") {
     const TemporaryFolder folder;
     const std::string scene = kScenes + "cornell-box.glb";
@@ -411,10 +461,7 @@ TEST_CASE("bad input ends in a sentence and an exit code, and leaves the old fil
         {"render " + scene + " --method nrc --network nowhere.json -o " + out, 66},
         {"render " + scene + " --camera nobody -o " + out, 66},
         {"render " + scene + " --device nothing -o " + out, 69},
-        {"render " + scene + " --method pt --network a.json -o " + out, 64},
-        {"render " + scene + " --method pt --view prediction -o " + out, 64},
         {"render " + scene + " --method nrc --view nothing -o " + out, 64},
-        {"render " + scene + " --method pt --view bounce-heat -o " + out, 64},
         {"render " + scene + " --view error-sign -o " + out, 64},
         {"render " + scene + " --reference " + small + " -o " + out, 64},
         {"render " + scene + " --view error-sign --reference nowhere.exr -o " + out, 66},

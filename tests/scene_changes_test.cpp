@@ -50,7 +50,7 @@ PlannedStates allStates() {
 }
 
 GpuScene uploaded(const Scene& scene, const PlannedStates& states) {
-    return uploadScene(device(), packScene(scene, states), buildBvh(scene), sceneBounds(scene));
+    return uploadScene(device(), packScene(scene, states), buildBvh(scene));
 }
 
 PathTracerOptions options(uint32_t seed = 1) {

@@ -20,7 +20,7 @@ Scene load(const GltfBuilder& builder) {
 }
 
 glm::vec3 corner(const Scene& scene, size_t triangle, int c) {
-    return scene.vertices[scene.triangles[triangle].vertex[c]].position;
+    return glm::vec3(scene.origin + glm::dvec3(scene.vertices[scene.triangles[triangle].vertex[c]].position));
 }
 
 glm::vec3 faceNormal(const Scene& scene, size_t t) {
@@ -409,14 +409,22 @@ TEST_CASE("Cameras: world transform without scale, perspective and orthographic"
     CHECK(chooseCamera(scene, "flat").camera.isOrthographic());
     CHECK_THROWS_AS(chooseCamera(scene, "2"), Error);
     CHECK_THROWS_AS(chooseCamera(scene, "ear"), Error);
+    Scene several;
+    several.name = "room";
+    several.cameras.resize(20);
+    several.cameras[1].name = "door";
+    CHECK(chooseCamera(several, "19").camera.name.empty());
+    CHECK_THROWS_WITH(chooseCamera(several, "20"),
+                      "camera '20': the scene 'room' has camera 0, 1 'door', 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, "
+                      "12, 13, 14, 15 and 4 more");
 }
 
 TEST_CASE("A scene without a camera is framed: every corner falls inside the picture") {
     const Scene scene = load(oneTriangle({{"scale", {40, 3, 3}}, {"translation", {-100, 7, 0}}}));
     const Camera camera = chooseCamera(scene, "").camera;
     const Bounds bounds = sceneBounds(scene);
-    CHECK(bounds.lower == glm::vec3(-100, 7, 0));
-    CHECK(bounds.upper == glm::vec3(-60, 10, 0));
+    CHECK(scene.origin + glm::dvec3(bounds.lower) == glm::dvec3(-100, 7, 0));
+    CHECK(scene.origin + glm::dvec3(bounds.upper) == glm::dvec3(-60, 10, 0));
     CHECK(std::abs(glm::dot(camera.forward, camera.up)) < 1e-6f);
     for (int i = 0; i < 8; ++i) {
         const glm::vec3 point = glm::mix(bounds.lower, bounds.upper, glm::vec3(i & 1, i >> 1 & 1, i >> 2));

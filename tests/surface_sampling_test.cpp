@@ -74,7 +74,7 @@ std::vector<Sample> draw(RecordAccess form, uint32_t first, uint32_t count, uint
     Device& device = deviceWith(form);
     SceneRecords records = packScene(soup());
     packAreaTable(records);
-    const GpuScene scene = uploadScene(device, records, buildBvh(soup()), sceneBounds(soup()));
+    const GpuScene scene = uploadScene(device, records, buildBvh(soup()));
     const Kernel kernel(device, kernels::generate_surface_rays);
     const Buffer rays(device, "rays", uint64_t{count} * gpu::kRayRecords * 16),
         hits(device, "hits", uint64_t{count} * 16), counters(device, "counters", gpu::kCounters * 4);

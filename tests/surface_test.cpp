@@ -109,7 +109,7 @@ std::vector<Query> randomQueries(const Scene& scene, size_t count) {
 
 // What the shader loads: 5 records for each query (scene_load_surface.comp).
 std::vector<glm::uvec4> loadSurfaces(const Scene& scene, const std::vector<Query>& queries) {
-    const GpuScene gpu = uploadScene(test::validatedDevice(), packScene(scene), Bvh{}, sceneBounds(scene));
+    const GpuScene gpu = uploadScene(test::validatedDevice(), packScene(scene), Bvh{});
     std::vector<glm::uvec4> records;
     for (const Query& q : queries) {
         records.emplace_back(glm::uvec3(std::bit_cast<glm::uvec3>(glm::vec3(-q.ray.direction))),
@@ -151,7 +151,7 @@ TEST_CASE("textures are bilinear, wrapped by texel and decoded before filtering"
         const glm::uvec4 codes = records.materials[(k / 2) * gpu::kMaterialRecords + 4];
         queries.emplace_back(std::bit_cast<glm::uvec2>(uv), k % 2 == 0 ? codes.x : codes.y, 0u);
     }
-    const GpuScene gpu = uploadScene(test::validatedDevice(), records, Bvh{}, Bounds{});
+    const GpuScene gpu = uploadScene(test::validatedDevice(), records, Bvh{});
     test::KernelHarness kernel(kernels::scene_sample_texture);
     const Buffer input = test::recordBuffer(queries);
     const gpu::BsdfHarnessParams params{static_cast<uint32_t>(queries.size()), 0, 0, 0};

@@ -119,8 +119,7 @@ ExactHit intersect(const Corners& c, const Ray& ray) {
     return {glm::dot(e2, q) / determinant, std::min({u, v, 1 - u - v})};
 }
 
-// Floats may err by this much in barycentrics (relative to the edge tolerance of 1e-5 the kernels have) and
-// in t.
+// Floats may err by this much in barycentrics, the kernels' tolerance at edges included, and in t.
 constexpr double kSlack = 4e-5;
 constexpr double kDistanceSlack = 2e-5;
 
@@ -215,6 +214,48 @@ TEST_CASE("a closed sphere does not leak") {
         for (uint32_t visible : tracer.visibility(rays)) leaks += visible;
         CHECK(leaks == 0);
     }
+}
+
+TEST_CASE("a sphere of millimetres does not leak beside triangles 100 km off, from within or from afar") {
+    Scene scene = closedSphere(40, 64, 2e-3f);
+    const Scene sphere = scene;
+    for (const float side : {-1e5f, 1e5f})
+        add(scene, {glm::vec3(side, 0, 0), glm::vec3(side, 1, 0), glm::vec3(side, 0, 1)});
+    Random random(31);
+    std::vector<Ray> within, afar;
+    for (uint32_t i = 0; i < 50'000; ++i) {
+        Ray ray{1e-3f * random.inCube(), random.direction(), 1.0f};
+        const Corners c = corners(sphere, i % static_cast<uint32_t>(sphere.triangles.size()));
+        if (i % 2 == 0) ray.direction = glm::normalize(glm::mix(c[0], c[1], random.uniform()) - ray.origin);
+        within.push_back(ray);
+        // Directions resolve 1 mm at 10 km; aim at the middle of the sphere.
+        const glm::vec3 from = 1e3f * random.direction();
+        afar.push_back({from, glm::normalize(1e-3f * random.direction() - from), 2e3f});
+    }
+    Tracer tracer(scene);
+    for (const std::vector<Ray>& rays : {within, afar}) {
+        uint32_t leaks = 0;
+        for (const Hit& hit : tracer.closest(rays)) leaks += hit.primitive >= sphere.triangles.size();
+        for (uint32_t visible : tracer.visibility(rays)) leaks += visible;
+        CHECK(leaks == 0);
+    }
+}
+
+TEST_CASE("a gap of 5 mm under a wall of 1 km stays open, and the wall closed") {
+    Scene wall;
+    const glm::vec3 p[4] = {{-1e3f, 0.005f, -1}, {1e3f, 0.005f, -1}, {1e3f, 1e3f, -1}, {-1e3f, 1e3f, -1}};
+    add(wall, {p[0], p[1], p[2]});
+    add(wall, {p[0], p[2], p[3]});
+    Random random(32);
+    std::vector<Ray> under, above;
+    for (int i = 0; i < 5000; ++i) {
+        const glm::vec3 from(900.0f * (2 * random.uniform() - 1), 0.0025f, 0);
+        under.push_back({from, {0, 0, -1}, 10.0f});
+        above.push_back({from + glm::vec3(0, 0.005f, 0), {0, 0, -1}, 10.0f});
+    }
+    Tracer tracer(wall);
+    for (uint32_t visible : tracer.visibility(under)) REQUIRE(visible == 1u);
+    for (uint32_t visible : tracer.visibility(above)) REQUIRE(visible == 0u);
 }
 
 TEST_CASE("any number of rays") {

@@ -3,6 +3,7 @@
 #include "tests/support/kernel_harness.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/trainer_harness.h"
+#include "tests/support/whole_model.h"
 #include <catch2/catch_test_macros.hpp>
 #include <cstdlib>
 
@@ -123,9 +124,9 @@ TEST_CASE("a model of another shape, or none, is refused and changes nothing") {
 TEST_CASE("a sparse grid's model is refused where as many other corners are stored") {
     const TemporaryFolder folder;
     ModelConfig config = smallModel();
-    config.encoding = parseModelConfig(R"({"encoding": {"otype": "Composite", "nested": [
+    config.encoding = parseModelConfig(wholeModel(R"({"encoding": {"otype": "Composite", "nested": [
         {"otype": "SparseGrid", "n_dims_to_encode": 3, "n_levels": 2, "base_resolution": 4},
-        {"otype": "Identity"}]}})",
+        {"otype": "Identity"}]}})"),
                                        "sparse model")
                           .encoding;
     const auto trainer = [&](float place) {

@@ -117,6 +117,9 @@ const DeviceDescription& Device::description() const {
 bool Device::isCpu() const {
     return state_->physical.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
 }
+bool Device::sharesMemory() const {
+    return isCpu() || state_->physical.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU;
+}
 uint32_t Device::subgroupSize() const {
     return state_->subgroupSize;
 }

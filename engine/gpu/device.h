@@ -53,6 +53,7 @@ public:
 
     const DeviceDescription& description() const;
     bool isCpu() const;
+    bool sharesMemory() const; // with the machine: a CPU, an integrated GPU
     uint32_t subgroupSize() const;       // the size kernels are pinned to
     bool canPinSubgroupSize() const;     // VK_EXT_subgroup_size_control (core in 1.3)
     uint32_t maxPinnedWorkgroup() const; // invocations of a workgroup whose subgroups are pinned
@@ -72,6 +73,9 @@ public:
     struct PlannedBuffer {
         std::string name;
         uint64_t bytes = 0;
+        uint64_t bound = 0; // bytes of it that a pass binds at most; 0 = all
+
+        uint64_t largestBinding() const { return bound == 0 ? bytes : bound; }
     };
     void plan(const std::vector<PlannedBuffer>& buffers) const;
     uint64_t memoryUsed() const;

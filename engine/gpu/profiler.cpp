@@ -2,9 +2,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace irradia {
 namespace {
+
+constexpr size_t kMostFrames = 4096; // kept: even, so that the next to keep follows the last
 
 // The smallest value that at least `share` of all values do not exceed (nearest rank).
 double quantile(const std::vector<double>& sorted, double share) {
@@ -33,7 +36,7 @@ void Profiler::record(std::string_view pass, double milliseconds) {
         std::find_if(entries_.begin(), entries_.end(), [&](const Entry& e) { return e.name == pass; });
     if (found == entries_.end()) {
         // A pass that first runs late took no time in the frames before.
-        entries_.push_back({std::string(pass), 0, 0, std::vector<double>(wall_.size(), 0.0)});
+        entries_.push_back({std::string(pass), 0, 0, 0, std::vector<double>(wall_.size(), 0.0)});
         found = entries_.end() - 1;
     }
     found->current += milliseconds;
@@ -41,16 +44,28 @@ void Profiler::record(std::string_view pass, double milliseconds) {
 }
 
 void Profiler::endFrame(double wallMilliseconds) {
-    wall_.push_back(wallMilliseconds);
+    const bool isKept = frames_++ % stride_ == 0;
+    if (isKept) wall_.push_back(wallMilliseconds);
     for (Entry& entry : entries_) {
-        entry.frames.push_back(entry.current);
-        entry.current = 0;
+        entry.last = std::exchange(entry.current, 0);
+        if (isKept) entry.frames.push_back(entry.last);
     }
+    if (wall_.size() == kMostFrames) thinOut();
+}
+
+// Drops every second of the frames that are kept.
+void Profiler::thinOut() {
+    const auto halve = [](std::vector<double>& values) {
+        for (size_t i = 0; 2 * i < values.size(); ++i) values[i] = values[2 * i];
+        values.resize((values.size() + 1) / 2);
+    };
+    halve(wall_);
+    for (Entry& entry : entries_) halve(entry.frames);
+    stride_ *= 2;
 }
 
 void Profiler::reset() {
-    entries_.clear();
-    wall_.clear();
+    *this = {};
 }
 
 std::vector<Profiler::Row> Profiler::rows() const {
@@ -60,13 +75,13 @@ std::vector<Profiler::Row> Profiler::rows() const {
 }
 
 Profiler::Row Profiler::wall() const {
-    return summary("total", wall_, wall_.size());
+    return summary("total", wall_, frames_);
 }
 
 double Profiler::lastFrame(std::string_view pass) const {
     const auto found =
         std::find_if(entries_.begin(), entries_.end(), [&](const Entry& e) { return e.name == pass; });
-    return found == entries_.end() || found->frames.empty() ? 0 : found->frames.back();
+    return found == entries_.end() ? 0 : found->last;
 }
 
 } // namespace irradia

@@ -1,4 +1,5 @@
-// Time per pass and per frame: GPU timestamps summed by pass name, medians over frames.
+// Time per pass and per frame: GPU timestamps summed by pass name, medians over frames. Of many frames every
+// second, fourth, ... is kept, so that what is kept does not grow with their number.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +25,7 @@ public:
     void endFrame(double wallMilliseconds);
     void reset();
 
-    size_t frames() const { return wall_.size(); }
+    uint64_t frames() const { return frames_; }
     std::vector<Row> rows() const;                 // in order of first appearance
     Row wall() const;                              // named "total"
     double lastFrame(std::string_view pass) const; // ms in the last closed frame, 0 if it did not run
@@ -32,12 +33,17 @@ public:
 private:
     struct Entry {
         std::string name;
-        double current = 0;
+        double current = 0; // of the frame being recorded
+        double last = 0;    // of the last closed one
         uint64_t runs = 0;
         std::vector<double> frames;
     };
+    void thinOut();
+
     std::vector<Entry> entries_;
     std::vector<double> wall_;
+    uint64_t frames_ = 0;
+    uint64_t stride_ = 1; // every stride_-th frame is kept
 };
 
 } // namespace irradia

@@ -7,6 +7,10 @@
 namespace irradia {
 namespace {
 
+// Of an execution, but for those that follow until the next cut. Each has a descriptor set, for which lavapipe
+// maps memory, and a process has 65,530 mappings.
+constexpr size_t kMostPasses = 2048;
+
 void checkTransfer(const char* verb, const BufferRange& range) {
     const Buffer& buffer = *range.buffer;
     if (range.bytes == 0 || range.offset % 4 != 0 || range.bytes % 4 != 0 || range.offset > buffer.bytes() ||
@@ -82,7 +86,10 @@ void FrameGraph::section(const std::string& name) {
 }
 
 void FrameGraph::cut() {
-    state_->cutNext = true;
+    if (state_->passes.size() >= kMostPasses)
+        execute();
+    else
+        state_->cutNext = true;
 }
 void FrameGraph::setTimeout(double seconds) {
     state_->timeoutSeconds = seconds;

@@ -5,7 +5,9 @@
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfIO.h>
+#include <ImfMatrixAttribute.h>
 #include <ImfOutputFile.h>
+#include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
 #include <exception>
 
@@ -63,11 +65,21 @@ void checkBeforeWriting(const std::filesystem::path& file, const LayeredImage& i
                  values.size(), image.width, image.height);
 }
 
+// OpenEXR multiplies row vectors, GLSL column vectors: a row of the one is a column of the other.
+Imath::M44f toImath(const glm::mat4& matrix) {
+    Imath::M44f result;
+    for (int i = 0; i < 4; ++i)
+        for (int k = 0; k < 4; ++k) result[i][k] = matrix[i][k];
+    return result;
+}
+
 Imf::Header makeHeader(const LayeredImage& image) {
     Imf::Header header(image.width, image.height);
     header.compression() = Imf::ZIP_COMPRESSION;
     for (const auto& entry : image.channels) header.channels().insert(entry.first, Imf::Channel(Imf::FLOAT));
     for (const auto& [name, value] : image.attributes) header.insert(name, Imf::StringAttribute(value));
+    for (const auto& [name, value] : image.matrices) header.insert(name, Imf::M44fAttribute(toImath(value)));
+    if (image.toRec709 == glm::mat3(1.0f)) Imf::addChromaticities(header, Imf::Chromaticities());
     return header;
 }
 

@@ -8,6 +8,7 @@
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfInputPart.h>
+#include <ImfMatrixAttribute.h>
 #include <ImfMultiPartInputFile.h>
 #include <ImfPartType.h>
 #include <ImfRgbaFile.h>
@@ -141,10 +142,21 @@ private:
     Size dataSize_, displaySize_;
 };
 
+// A row of OpenEXR's matrix is a column of GLSL's.
+glm::mat4 fromImath(const Imath::M44f& matrix) {
+    glm::mat4 result;
+    for (int i = 0; i < 4; ++i)
+        for (int k = 0; k < 4; ++k) result[i][k] = matrix[i][k];
+    return result;
+}
+
 void readAttributes(const Imf::Header& header, LayeredImage& image) {
-    for (auto it = header.begin(); it != header.end(); ++it)
+    for (auto it = header.begin(); it != header.end(); ++it) {
         if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&it.attribute()))
             image.attributes[it.name()] = text->value();
+        if (const auto* matrix = dynamic_cast<const Imf::M44fAttribute*>(&it.attribute()))
+            image.matrices[it.name()] = fromImath(matrix->value());
+    }
     for (const char* ofParts : {"name", "type"}) image.attributes.erase(ofParts);
     if (Imf::hasChromaticities(header)) image.toRec709 = matrixToRec709(Imf::chromaticities(header));
 }

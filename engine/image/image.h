@@ -12,12 +12,14 @@
 
 namespace irradia {
 
-// Named float channels of one size, first row on top, and string attributes: what an EXR file holds.
+// Named float channels of one size, first row on top, and attributes: what an EXR file holds. R, G, B are
+// linear with the primaries of Rec. 709, which the file says too.
 struct LayeredImage {
     int width = 0;
     int height = 0;
     std::map<std::string, std::vector<float>> channels; // "R", "G", "B", "Albedo.R", "N.X", "Variance.R", ...
     std::map<std::string, std::string> attributes;      // "irradia.seed" -> "1"
+    std::map<std::string, glm::mat4> matrices;          // "worldToCamera"; of column vectors, as GLSL's
     std::string name = "image";                         // of the file it came from, for errors
     glm::mat3 toRec709{1.0f}; // of the R, G, B channels, whose primaries may be others
 

@@ -11,8 +11,8 @@ struct CachePaths {
     BufferRange queries;          // rows for every path of a wave
     BufferRange queryWeights;     // a record each
     BufferRange counters;         // kCacheCounters words
-    BufferRange trainingPaths;    // tilesX * tilesY of them
-    BufferRange trainingVertices; // kMaxTrainingVertices each
+    BufferRange trainingPaths;    // those of the wave, from rule.firstTraining on
+    BufferRange trainingVertices; // likewise, kMaxTrainingVertices each
     BufferRange trainingQueries;  // a row each
     gpu::CacheRule rule;
 };

@@ -2,6 +2,7 @@
 
 #include "engine/error.h"
 #include "kernels/path.h"
+#include "shared/network.h"
 #include "shared/queue.h"
 #include "shared/trace.h"
 #include <algorithm>
@@ -11,10 +12,6 @@
 namespace irradia {
 
 namespace {
-
-// Paths in flight: on a CPU few enough for the queues to stay in its caches, on a GPU enough to fill it.
-constexpr uint32_t kCpuWave = 1u << 15;
-constexpr uint32_t kGpuWave = 1u << 20;
 
 // Constants of every kernel that includes path/needs.glsl.
 KernelOptions fitted(const SceneNeeds& needs, uint32_t view) {
@@ -46,16 +43,16 @@ bool trains(const CachePaths* cache) {
     return cache && cache->rule.tilesX > 0;
 }
 
-bool startsAtSurfaces(const Wave& wave) {
-    return wave.firstPixel >= gpu::kFirstSurfacePath;
-}
-
-// `count` paths, at most `largest` a wave.
-std::vector<Wave> split(uint32_t first, uint32_t count, uint32_t largest) {
-    std::vector<Wave> waves;
-    for (uint32_t done = 0; done < count; done += largest)
-        waves.push_back({first + done, std::min(largest, count - done)});
-    return waves;
+// Calls visit(const glm::vec4*) with the vectors of each pixel in turn; reads a part of them at a time.
+template <uint32_t vectors, typename Visit>
+void forEachPixel(Device& device, const Buffer& buffer, size_t pixels, const Visit& visit) {
+    constexpr size_t kTogether = 1u << 18;
+    for (size_t first = 0; first < pixels; first += kTogether) {
+        const size_t count = std::min(kTogether, pixels - first);
+        const auto part =
+            download<glm::vec4>(device, buffer, count * vectors, first * vectors * sizeof(glm::vec4));
+        for (size_t i = 0; i < count; ++i) visit(&part[i * vectors]);
+    }
 }
 
 // scatter's, where there is a cache.
@@ -66,30 +63,14 @@ struct CachedBounceParams {
 
 } // namespace
 
-uint32_t WavefrontPathTracer::largestWave(const Device& device, const PathTracerOptions& options) {
-    const uint64_t pixels = uint64_t(options.width) * options.height;
-    const uint64_t wanted = options.waveSize != 0 ? options.waveSize : (device.isCpu() ? kCpuWave : kGpuWave);
-    return static_cast<uint32_t>(std::min(pixels, wanted));
-}
-
-std::vector<Device::PlannedBuffer> WavefrontPathTracer::plannedBuffers(const Device& device,
-                                                                       const PathTracerOptions& options) {
-    const uint64_t wave = largestWave(device, options);
-    const uint64_t pixels = uint64_t(options.width) * options.height;
-    return {{"rays", 2 * wave * gpu::kRayRecords * 16},
-            {"hits", wave * 16},
-            {"shadow rays", wave * (gpu::kShadowRayRecords * 16 + 4)},
-            {"path radiance", wave * (options.cached ? 32 : 16)},
-            {"film", pixels * 16 * (gpu::kFilmVectors + (options.surfaces ? gpu::kSurfaceVectors : 0))}};
-}
-
 WavefrontPathTracer::WavefrontPathTracer(Device& device, const GpuScene& scene,
                                          const PathTracerOptions& options, Profiler* profiler)
     : device_(device)
     , scene_(scene)
     , options_(options)
     , graph_(device, profiler)
-    , waveSize_(largestWave(device, options)) {
+    , waveSize_(PathBuffers::largestWave(device.isCpu(), options))
+    , buffers_(device, options) {
     const KernelOptions fit = fitted(scene.needs, options.view);
     kernels_.generateCameraRays = Kernel(device, kernels::generate_camera_rays);
     kernels_.beginBounce = Kernel(device, kernels::begin_bounce);
@@ -108,48 +89,52 @@ WavefrontPathTracer::WavefrontPathTracer(Device& device, const GpuScene& scene,
         Kernel(device, either(kernels::add_direct_light, kernels::add_direct_light_cached));
     kernels_.updateFilm = Kernel(device, kernels::update_film, fit);
     if (scene.areaTable) kernels_.generateSurfaceRays = Kernel(device, kernels::generate_surface_rays, fit);
-
-    const uint64_t wave = waveSize_;
-    const uint64_t pixels = uint64_t(options.width) * options.height;
-    for (Buffer& rays : rays_) rays = Buffer(device, "ray queue", wave * gpu::kRayRecords * 16);
-    hits_ = Buffer(device, "hits", wave * 16);
-    shadowRays_ = Buffer(device, "shadow ray queue", wave * gpu::kShadowRayRecords * 16);
-    visibility_ = Buffer(device, "visibility", wave * 4);
-    pathStates_ = Buffer(device, "path states", options.cached ? wave * 16 : 16);
-    radiance_ = Buffer(device, "path radiance", wave * 16);
-    counters_ = Buffer(device, "queue counters", gpu::kCounters * 4);
-    arguments_ = Buffer(device, "dispatch arguments", gpu::kDispatchArguments * 4);
-    film_ = Buffer(device, "film", pixels * gpu::kFilmVectors * 16);
-    surfaces_ = Buffer(device, "surfaces", options.surfaces ? pixels * gpu::kSurfaceVectors * 16 : 16);
 }
 
 void WavefrontPathTracer::renderFrame(const Camera& camera, uint32_t index) {
     beginFrame();
-    for (const Wave& wave : waves()) {
-        for (uint32_t k = 0; k < options_.samplesPerFrame; ++k) traceWave(camera, wave, index, k);
-        addToFilm(wave);
+    for (Waves waves = this->waves(); const auto wave = waves.next();) {
+        traceWave(camera, *wave, index);
+        addToFilm(*wave);
     }
     graph_.execute();
     endFrame();
 }
 
 void WavefrontPathTracer::beginFrame() {
-    graph_.fill(counters_, 0);
+    graph_.fill(buffers_.counters, 0);
 }
 
-std::vector<Wave> WavefrontPathTracer::waves() const {
-    return split(0, options_.width * options_.height, waveSize_);
+Waves WavefrontPathTracer::waves() const {
+    return {0, options_.pixels(), options_.samplesPerFrame, waveSize_};
 }
 
-std::vector<Wave> WavefrontPathTracer::surfaceWaves(uint32_t paths) const {
-    return split(gpu::kFirstSurfacePath, paths, waveSize_);
+uint32_t WavefrontPathTracer::trainingWave() const {
+    constexpr uint32_t kVertexBytes = gpu::kMaxTrainingVertices * gpu::kTrainingVertexVectors * 16;
+    // The range that is bound begins at a whole tile of rows.
+    return std::min(waveSize_, device_.limits().maxStorageBufferRange / kVertexBytes - gpu::kTileRows);
+}
+
+Waves WavefrontPathTracer::trainingWaves(uint32_t paths) const {
+    return {gpu::kFirstTrainingPixel, paths, 1, trainingWave()};
+}
+
+Waves WavefrontPathTracer::surfaceWaves(uint32_t paths) const {
+    return {gpu::kFirstSurfacePath, paths, 1, trainingWave()};
 }
 
 void WavefrontPathTracer::addToFilm(const Wave& wave) {
+    constexpr uint64_t kBytes = gpu::kFilmVectors * 16;
     // Of a frame's samples of a pixel the first alone may train.
     const uint32_t samples = options_.view == gpu::kViewTrainingDensity ? 1 : options_.samplesPerFrame;
-    const gpu::FilmParams film{wave.firstPixel, wave.paths, frames_, 1.0f / static_cast<float>(samples)};
-    graph_.pass(kernels_.updateFilm).read(radiance_).readWrite(film_).push(film).dispatch(wave.paths);
+    const uint32_t part = (wave.firstSample == 0 ? gpu::kFirstSamples : 0u) | (wave.isLast ? gpu::kLastSamples : 0u);
+    const gpu::FilmParams film{wave.pixels, wave.log2Samples, part, frames_, 1.0f / static_cast<float>(samples)};
+    graph_.pass(kernels_.updateFilm)
+        .read(buffers_.radiance)
+        .readWrite(buffers_.sampleSums)
+        .readWrite({buffers_.film, wave.firstPixel * kBytes, wave.pixels * kBytes})
+        .push(film)
+        .dispatch(wave.pixels);
     graph_.cut();
 }
 
@@ -158,13 +143,12 @@ void WavefrontPathTracer::endFrame() {
 }
 
 void WavefrontPathTracer::forgetFilm() {
-    if (options_.surfaces) graph_.fill(surfaces_, 0);
+    if (options_.surfaces) graph_.fill(buffers_.surfaces, 0);
     frames_ = 0;
 }
 
-void WavefrontPathTracer::traceWave(const Camera& camera, const Wave& wave, uint32_t frame, uint32_t sample,
+void WavefrontPathTracer::traceWave(const Camera& camera, const Wave& wave, uint32_t frame,
                                     const CachePaths* cache) {
-    const uint32_t sampleIndex = frame * options_.samplesPerFrame + sample;
     const float scale = camera.isOrthographic() ? camera.halfHeight : std::tan(0.5f * camera.verticalFov);
     const float aspect = static_cast<float>(options_.width) / static_cast<float>(options_.height);
     const glm::vec3 right = glm::normalize(glm::cross(camera.forward, camera.up));
@@ -175,34 +159,35 @@ void WavefrontPathTracer::traceWave(const Camera& camera, const Wave& wave, uint
                                    options_.width,
                                    options_.height,
                                    wave.firstPixel,
-                                   wave.paths,
-                                   sampleIndex,
+                                   wave.paths(),
+                                   sampleIndex(wave, frame),
                                    options_.seed,
-                                   sample == 0 ? 1u : 0u,
+                                   wave.log2Samples,
                                    camera.isOrthographic() ? 1u : 0u};
     graph_.pass(kernels_.generateCameraRays)
-        .write(rays_[0])
-        .write(radiance_)
-        .readWrite(counters_)
+        .write(buffers_.rays[0])
+        .write(buffers_.radiance)
+        .readWrite(buffers_.counters)
         .push(params)
-        .dispatch(wave.paths);
-    const uint32_t last = trains(cache) ? std::max(deepestRay(), cache->rule.lastDepth) : deepestRay();
+        .dispatch(wave.paths());
+    uint32_t last = trains(cache) ? std::max(deepestRay(), cache->rule.lastDepth) : deepestRay();
+    if (!wave.isSeen()) last = cache->rule.lastDepth;
     for (uint32_t depth = 0; depth <= last; ++depth) {
-        bounce(depth, wave, sampleIndex, cache);
-        if (depth == 0 && options_.surfaces) recordSurfaces(camera, wave);
+        bounce(depth, wave, sampleIndex(wave, frame), cache);
+        if (depth == 0 && options_.surfaces && wave.isSeen()) recordSurfaces(camera, wave);
     }
 }
 
 void WavefrontPathTracer::traceSurfaceWave(const Wave& wave, uint32_t frame, float distance,
                                            const CachePaths& cache) {
     if (!scene_.areaTable) fail(ExitCode::Internal, "the scene was packed without its area table");
-    const uint32_t sampleIndex = frame * options_.samplesPerFrame;
-    const gpu::SurfacePathParams params{wave.firstPixel,  wave.paths, sampleIndex, options_.seed,
-                                        scene_.triangles, distance,   0,           0};
+    const gpu::SurfacePathParams params{wave.firstPixel, wave.paths(), sampleIndex(wave, frame), options_.seed,
+                                        scene_.triangles, distance,     0,                        0};
     Pass pass = graph_.pass(kernels_.generateSurfaceRays);
-    pass.write(rays_[0]).write(hits_).readWrite(counters_);
-    readSurfaces(pass, scene_).read(scene_.areaTable).push(params).dispatch(wave.paths);
-    for (uint32_t depth = 0; depth <= cache.rule.lastDepth; ++depth) bounce(depth, wave, sampleIndex, &cache);
+    pass.write(buffers_.rays[0]).write(buffers_.hits).readWrite(buffers_.counters);
+    readSurfaces(pass, scene_).read(scene_.areaTable).push(params).dispatch(wave.paths());
+    for (uint32_t depth = 0; depth <= cache.rule.lastDepth; ++depth)
+        bounce(depth, wave, sampleIndex(wave, frame), &cache);
 }
 
 void WavefrontPathTracer::bounce(uint32_t depth, const Wave& wave, uint32_t sampleIndex,
@@ -216,11 +201,11 @@ void WavefrontPathTracer::bounce(uint32_t depth, const Wave& wave, uint32_t samp
                                    scene_.environmentWidth,
                                    scene_.environmentHeight,
                                    scene_.environmentProbability,
-                                   scene_.rayEpsilon,
                                    parity,
+                                   wave.log2Samples,
                                    0,
                                    0};
-    const bool areTraced = depth > 0 || !startsAtSurfaces(wave);
+    const bool areTraced = depth > 0 || !wave.startsAtSurfaces();
     beginBounce(parity, areTraced);
     if (areTraced) meetSurfaces(params, cache);
     graph_.cut();
@@ -230,11 +215,11 @@ void WavefrontPathTracer::bounce(uint32_t depth, const Wave& wave, uint32_t samp
     scatter(params, cache);
     graph_.pass(kernels_.intersectShadow)
         .read(scene_.bvh)
-        .read(shadowRays_)
-        .read(counters_)
-        .write(visibility_)
+        .read(buffers_.shadowRays)
+        .read(buffers_.counters)
+        .write(buffers_.visibility)
         .push(gpu::TraceParams{gpu::kShadowRayCounter, scene_.bvhRoot})
-        .dispatchIndirect(BufferRange(arguments_, gpu::kTraceArguments * 4, 12)); // at most one a ray
+        .dispatchIndirect(BufferRange(buffers_.arguments, gpu::kTraceArguments * 4, 12)); // at most one a ray
     addDirectLight(cache);
     graph_.cut();
 }
@@ -243,8 +228,8 @@ void WavefrontPathTracer::beginBounce(uint32_t parity, bool areTraced) {
     const gpu::BeginBounceParams begin{parity, kernels_.intersectClosest.workgroupSize() * gpu::kRaysPerLane,
                                        kernels_.scatter.workgroupSize(), areTraced ? 1u : 0u};
     graph_.pass(kernels_.beginBounce)
-        .readWrite(counters_)
-        .readWrite(arguments_)
+        .readWrite(buffers_.counters)
+        .readWrite(buffers_.arguments)
         .push(begin)
         .dispatchGroups(1);
 }
@@ -252,26 +237,26 @@ void WavefrontPathTracer::beginBounce(uint32_t parity, bool areTraced) {
 // The rays' nearest hits, and the light that they meet there or beyond the scene.
 void WavefrontPathTracer::meetSurfaces(const gpu::BounceParams& params, const CachePaths* cache) {
     const uint32_t parity = params.queueParity;
-    const Buffer& rays = rays_[parity];
-    const BufferRange itemArguments(arguments_, gpu::kItemArguments * 4, 12);
+    const Buffer& rays = buffers_.rays[parity];
+    const BufferRange itemArguments(buffers_.arguments, gpu::kItemArguments * 4, 12);
     graph_.pass(kernels_.intersectClosest)
         .read(scene_.bvh)
         .read(rays)
-        .read(counters_)
-        .write(hits_)
+        .read(buffers_.counters)
+        .write(buffers_.hits)
         .push(gpu::TraceParams{gpu::kRayCounter + parity, scene_.bvhRoot})
-        .dispatchIndirect(BufferRange(arguments_, gpu::kTraceArguments * 4, 12));
+        .dispatchIndirect(BufferRange(buffers_.arguments, gpu::kTraceArguments * 4, 12));
     if (scene_.needs.environment) {
         Pass pass = graph_.pass(kernels_.handleEscapedRays);
-        pass.read(rays).read(hits_).read(counters_).readWrite(radiance_).read(scene_.environment);
-        if (cache) gatherForTraining(pass, pathStates_, *cache);
+        pass.read(rays).read(buffers_.hits).read(buffers_.counters).readWrite(buffers_.radiance).read(scene_.environment);
+        if (cache) gatherForTraining(pass, buffers_.pathStates, *cache);
         pass.push(params).dispatchIndirect(itemArguments);
     }
     if (scene_.needs.emitters) {
         Pass pass = graph_.pass(kernels_.handleEmissiveHits);
-        pass.read(rays).read(hits_).read(counters_).readWrite(radiance_);
+        pass.read(rays).read(buffers_.hits).read(buffers_.counters).readWrite(buffers_.radiance);
         readSurfaces(pass, scene_).read(scene_.lights);
-        if (cache) gatherForTraining(pass, pathStates_, *cache);
+        if (cache) gatherForTraining(pass, buffers_.pathStates, *cache);
         pass.push(params).dispatchIndirect(itemArguments);
     }
 }
@@ -279,44 +264,47 @@ void WavefrontPathTracer::meetSurfaces(const gpu::BounceParams& params, const Ca
 void WavefrontPathTracer::scatter(const gpu::BounceParams& params, const CachePaths* cache) {
     const uint32_t parity = params.queueParity;
     Pass pass = graph_.pass(kernels_.scatter);
-    readSurfaces(pass.read(rays_[parity]).read(hits_).readWrite(counters_), scene_)
+    readSurfaces(pass.read(buffers_.rays[parity]).read(buffers_.hits).readWrite(buffers_.counters), scene_)
         .read(scene_.lights)
         .read(scene_.environment)
         .read(scene_.environmentAlias)
         .read(scene_.reflectanceTable)
-        .write(rays_[1 - parity])
-        .write(shadowRays_);
+        .write(buffers_.rays[1 - parity])
+        .write(buffers_.shadowRays);
     if (cache)
-        gatherForTraining(pass, pathStates_, *cache)
+        gatherForTraining(pass, buffers_.pathStates, *cache)
             .write(cache->queries)
             .write(cache->queryWeights)
             .write(cache->trainingQueries)
             .readWrite(cache->counters)
-            .readWrite(radiance_)
+            .readWrite(buffers_.radiance)
             .push(CachedBounceParams{params, cache->rule});
     else
         pass.push(params);
-    pass.dispatchIndirect(BufferRange(arguments_, gpu::kItemArguments * 4, 12));
+    pass.dispatchIndirect(BufferRange(buffers_.arguments, gpu::kItemArguments * 4, 12));
 }
 
 void WavefrontPathTracer::addDirectLight(const CachePaths* cache) {
     Pass pass = graph_.pass(kernels_.addDirectLight);
-    pass.read(shadowRays_).read(visibility_).read(counters_).readWrite(radiance_);
-    if (cache) gatherForTraining(pass, pathStates_, *cache);
-    pass.dispatchIndirect(BufferRange(arguments_, gpu::kItemArguments * 4, 12));
+    pass.read(buffers_.shadowRays).read(buffers_.visibility).read(buffers_.counters).readWrite(buffers_.radiance);
+    if (cache) gatherForTraining(pass, buffers_.pathStates, *cache);
+    pass.dispatchIndirect(BufferRange(buffers_.arguments, gpu::kItemArguments * 4, 12));
 }
 
 void WavefrontPathTracer::recordSurfaces(const Camera& camera, const Wave& wave) {
+    constexpr uint64_t kBytes = gpu::kSurfaceVectors * 16;
     const gpu::SurfaceParams params{
-        wave.firstPixel, wave.paths, 0, 0, glm::vec4(camera.position, 0), glm::vec4(camera.forward, 0)};
-    readSurfaces(graph_.pass(kernels_.recordSurfaces).read(rays_[0]).read(hits_).readWrite(surfaces_), scene_)
-        .push(params)
-        .dispatch(wave.paths);
+        wave.pixels, wave.log2Samples, 0, 0, glm::vec4(camera.position, 0), glm::vec4(camera.forward, 0)};
+    Pass pass = graph_.pass(kernels_.recordSurfaces);
+    pass.read(buffers_.rays[0])
+        .read(buffers_.hits)
+        .readWrite({buffers_.surfaces, wave.firstPixel * kBytes, wave.pixels * kBytes});
+    readSurfaces(pass, scene_).push(params).dispatch(wave.pixels);
 }
 
 uint64_t WavefrontPathTracer::raysTraced() const {
     // The last bounce's shadow rays are counted by the begin_bounce after them: add what is left over.
-    const auto counters = download<uint32_t>(device_, counters_, gpu::kCounters);
+    const auto counters = download<uint32_t>(device_, buffers_.counters, gpu::kCounters);
     return uint64_t(counters[gpu::kTracedRays]) + (uint64_t(counters[gpu::kTracedRaysHigh]) << 32) +
            counters[gpu::kShadowRayCounter];
 }
@@ -328,23 +316,21 @@ FilmImage WavefrontPathTracer::readFilm() const {
     image.height = static_cast<int>(options_.height);
     image.frames = frames_;
     image.samplesPerFrame = options_.samplesPerFrame;
-    const auto film = download<glm::vec4>(device_, film_, pixels * gpu::kFilmVectors);
+    image.reserve(pixels, frames_ >= 2, options_.surfaces);
     const float n = static_cast<float>(frames_);
-    for (size_t i = 0; i < pixels; ++i) {
-        image.mean.emplace_back(film[i * gpu::kFilmVectors]);
-        if (frames_ >= 2)
-            image.variance.push_back(glm::vec3(film[i * gpu::kFilmVectors + 1]) / (n * (n - 1.0f)));
-    }
+    forEachPixel<gpu::kFilmVectors>(device_, buffers_.film, pixels, [&](const glm::vec4* p) {
+        image.mean.emplace_back(p[0]);
+        if (frames_ >= 2) image.variance.push_back(glm::vec3(p[1]) / (n * (n - 1.0f)));
+    });
     if (!options_.surfaces) return image;
-    const auto surfaces = download<glm::vec4>(device_, surfaces_, pixels * gpu::kSurfaceVectors);
-    for (size_t i = 0; i < pixels; ++i) {
-        const glm::vec4* s = &surfaces[i * gpu::kSurfaceVectors];
+    forEachPixel<gpu::kSurfaceVectors>(device_, buffers_.surfaces, pixels, [&](const glm::vec4* s) {
         const float hits = std::max(s[0].w, 1.0f);
         image.albedo.push_back(glm::vec3(s[0]) / hits);
         image.normal.push_back(glm::vec3(s[1]) / hits);
-        image.position.push_back(glm::vec3(s[2]) / hits);
+        const glm::dvec3 position = glm::dvec3(glm::vec3(s[2])) / double(hits) + scene_.origin;
+        image.position.push_back(s[0].w > 0 ? glm::vec3(position) : glm::vec3(0.0f));
         image.depth.push_back(s[0].w > 0 ? s[1].w / hits : std::numeric_limits<float>::infinity());
-    }
+    });
     return image;
 }
 

@@ -13,17 +13,17 @@ constexpr uint64_t kBindingLimit = uint64_t{128} << 20; // bytes: maxStorageBuff
 constexpr uint32_t kWidth = gpu::kBvhWidth;
 constexpr uint32_t kItem = gpu::kItemRecords;
 
-float largestCoordinate(const Bounds& b) {
-    const glm::vec3 m = glm::max(glm::abs(b.lower), glm::abs(b.upper));
-    return std::max({m.x, m.y, m.z});
-}
-
 // (Not GLM's floatBitsToUint: its vector form breaks strict aliasing.)
 glm::uvec3 bitsOf(const glm::vec3& v) {
     return std::bit_cast<glm::uvec3>(v);
 }
 uint32_t bitsOf(float v) {
     return std::bit_cast<uint32_t>(v);
+}
+
+float floatBelow(double v) {
+    const auto nearest = static_cast<float>(std::max(v, -3.0e38));
+    return double(nearest) <= v ? nearest : std::nextafter(nearest, -3.0e38f);
 }
 
 // The boxes of up to four children on one axis, quantised.
@@ -34,16 +34,18 @@ struct QuantisedAxis {
     uint32_t upper = 0; // byte k = q of child k
 };
 
-// Boxes grow by `padding` first; absent children become inverted boxes.
-QuantisedAxis quantise(const std::vector<Bounds>& children, int axis, float padding) {
+// Boxes grow by 8 roundings of the node's extent first: what intersectBoxes may err by for a ray from nearby
+// (from afar its errors are a share of the distance). Absent children become inverted boxes.
+QuantisedAxis quantise(const std::vector<Bounds>& children, int axis) {
     float low = children[0].lower[axis];
     float high = children[0].upper[axis];
     for (const Bounds& b : children) {
         low = std::min(low, b.lower[axis]);
         high = std::max(high, b.upper[axis]);
     }
+    const double padding = 0x1p-21 * (double(high) - low);
     QuantisedAxis out;
-    out.origin = std::max(low - padding, -3.0e38f);
+    out.origin = floatBelow(low - padding);
     const double extent = double(high) + padding - out.origin;
     // An exponent near the largest that will do; far from denormal steps.
     out.exponent = std::max(extent > 0.0 ? std::ilogb(extent / 255.0) : -100, -100);
@@ -69,8 +71,7 @@ public:
     Encoder(const Scene& scene, const BinaryTree& tree, const Collapse& collapse)
         : scene_(scene)
         , tree_(tree)
-        , collapse_(collapse)
-        , padding_(0x1p-21f * largestCoordinate(tree[0].bounds)) {}
+        , collapse_(collapse) {}
 
     Bvh encode() {
         bvh_.records.resize(kItem);
@@ -107,9 +108,9 @@ private:
     void writeNode(uint32_t item, uint32_t firstChild, const std::vector<uint32_t>& children) {
         std::vector<Bounds> boxes;
         for (uint32_t child : children) boxes.push_back(tree_[child].bounds);
-        const QuantisedAxis x = quantise(boxes, 0, padding_);
-        const QuantisedAxis y = quantise(boxes, 1, padding_);
-        const QuantisedAxis z = quantise(boxes, 2, padding_);
+        const QuantisedAxis x = quantise(boxes, 0);
+        const QuantisedAxis y = quantise(boxes, 1);
+        const QuantisedAxis z = quantise(boxes, 2);
         const auto biased = [](const QuantisedAxis& axis) {
             return static_cast<uint32_t>(axis.exponent + 127);
         };
@@ -137,9 +138,6 @@ private:
     const Scene& scene_;
     const BinaryTree& tree_;
     const Collapse& collapse_;
-    // Boxes grow by a few roundings of the largest coordinate: the kernels compute in floats, relative to the
-    // ray's origin.
-    float padding_;
     Bvh bvh_;
 };
 

@@ -1,9 +1,11 @@
 #include "engine/error.h"
 #include "engine/scene/gltf_json_guard.h"
 #include "engine/scene/load_scene.h"
+#include "engine/scene/scene_box.h"
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 namespace irradia {
@@ -40,15 +42,31 @@ std::string readEnvironment(const Json& value, const std::filesystem::path& file
     return fmt::format("{},{},{}", colour.x, colour.y, colour.z);
 }
 
+// "camera 0 'front', 1, 2 and 7 more".
 std::string cameraNames(const Scene& scene) {
+    constexpr size_t kMostNames = 16;
     std::string names;
-    for (const Camera& camera : scene.cameras) names += (names.empty() ? "'" : ", '") + camera.name + "'";
+    for (size_t i = 0; i < std::min(scene.cameras.size(), kMostNames); ++i) {
+        const std::string& name = scene.cameras[i].name;
+        names += (i == 0 ? "camera " : ", ") + std::to_string(i) + (name.empty() ? "" : " '" + name + "'");
+    }
+    if (scene.cameras.size() > kMostNames)
+        names += fmt::format(" and {} more", scene.cameras.size() - kMostNames);
     return names.empty() ? "no camera" : names;
+}
+
+void requireKnownKeys(const Json& camera, const std::string& file, const std::string& path) {
+    constexpr const char* kKeys[] = {"position", "look_at", "up", "vfov_deg", "aspect"};
+    for (const auto& [key, value] : camera.items())
+        if (std::ranges::find(kKeys, key) == std::end(kKeys))
+            fail(ExitCode::BadData, "{}: unknown key {}, there are {} in '{}'", file, Json(key).dump(),
+                 fmt::join(kKeys, ", "), path);
 }
 
 } // namespace
 
-Camera parseCamera(const Json& json, const std::string& file, const std::string& path) {
+Camera parseCamera(const Json& json, const std::string& file, const std::string& path,
+                   const glm::dvec3& origin) {
     const auto member = [&](const std::string& key) -> const Json& {
         if (!json.contains(key)) fail(ExitCode::BadData, "{}: '{}.{}' is missing", file, path, key);
         return json[key];
@@ -58,6 +76,7 @@ Camera parseCamera(const Json& json, const std::string& file, const std::string&
     };
     const auto read = [&](const std::string& key) { return vector(member(key), {file, path + "." + key}); };
     if (!json.is_object()) Field{file, path}.refuse("an object");
+    requireKnownKeys(json, file, path);
     const glm::dvec3 position = read("position");
     const glm::dvec3 forward = read("look_at") - position;
     const glm::dvec3 right = glm::cross(forward, json.contains("up") ? read("up") : glm::dvec3(0, 1, 0));
@@ -69,28 +88,28 @@ Camera parseCamera(const Json& json, const std::string& file, const std::string&
 
     Camera camera;
     camera.name = std::filesystem::path(file).stem().string();
-    camera.position = position;
+    camera.position = position - origin;
     camera.forward = glm::normalize(forward);
     camera.up = glm::normalize(glm::cross(right, forward));
     camera.verticalFov = static_cast<float>(glm::radians(fov.get<double>()));
     return camera;
 }
 
-CameraFile loadCameraFile(const std::filesystem::path& file) {
+CameraFile loadCameraFile(const std::filesystem::path& file, const glm::dvec3& origin) {
     const gltf::SourceFile source = gltf::openSource(file);
     const char* text = reinterpret_cast<const char*>(source.bytes.data());
     gltf::guardJson(source, {text, source.bytes.size()}, gltf::Schema::Any);
     const Json json = Json::parse(text, text + source.bytes.size());
     if (!json.is_object() || !json.contains("camera") || !json["camera"].is_object())
         fail(ExitCode::BadData, "{}: there is no object 'camera'", file.string());
-    return {parseCamera(json["camera"], file.string(), "camera"),
+    return {parseCamera(json["camera"], file.string(), "camera", origin),
             json.contains("env") ? readEnvironment(json["env"], file) : std::string()};
 }
 
 CameraFile chooseCamera(const Scene& scene, const std::string& choice) {
     if (choice.empty())
-        return {scene.cameras.empty() ? framingCamera(sceneBounds(scene)) : scene.cameras.front(), {}};
-    if (choice.ends_with(".json")) return loadCameraFile(choice);
+        return {scene.cameras.empty() ? framingCamera(sceneBox(scene)) : scene.cameras.front(), {}};
+    if (choice.ends_with(".json")) return loadCameraFile(choice, scene.origin);
     const auto named = std::find_if(scene.cameras.begin(), scene.cameras.end(),
                                     [&](const Camera& camera) { return camera.name == choice; });
     if (named != scene.cameras.end()) return {*named, {}};

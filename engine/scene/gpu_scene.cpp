@@ -7,11 +7,6 @@
 
 namespace irradia {
 
-float rayEpsilon(const Bounds& bounds) {
-    const glm::vec3 largest = glm::max(glm::abs(bounds.lower), glm::abs(bounds.upper));
-    return kRayEpsilonShare * std::max({largest.x, largest.y, largest.z});
-}
-
 std::vector<Device::PlannedBuffer> plannedBuffers(const SceneRecords& records, const Bvh& bvh) {
     const auto bytes = [](const auto& v) { return uint64_t(v.size() * sizeof(v[0])); };
     return {
@@ -24,7 +19,7 @@ std::vector<Device::PlannedBuffer> plannedBuffers(const SceneRecords& records, c
         {"area table", bytes(records.areaTable)}};
 }
 
-GpuScene uploadScene(Device& device, const SceneRecords& records, const Bvh& bvh, const Bounds& bounds) {
+GpuScene uploadScene(Device& device, const SceneRecords& records, const Bvh& bvh) {
     GpuScene scene;
     scene.bvh = makeBuffer(device, "bvh", bvh.records);
     scene.geometry = makeBuffer(device, "geometry", records.geometry);
@@ -38,6 +33,7 @@ GpuScene uploadScene(Device& device, const SceneRecords& records, const Bvh& bvh
     if (!records.areaTable.empty()) scene.areaTable = makeBuffer(device, "area table", records.areaTable);
     scene.reflectanceTable = makeBuffer(device, "reflectance table", buildReflectanceTable());
     scene.needs = records.needs;
+    scene.origin = records.origin;
     scene.triangles = static_cast<uint32_t>(records.geometry.size() / gpu::kGeometryRecords);
     scene.bvhRoot = bvh.root;
     scene.lightCount = records.lightCount;
@@ -45,7 +41,6 @@ GpuScene uploadScene(Device& device, const SceneRecords& records, const Bvh& bvh
     scene.environmentHeight = std::max(records.environmentHeight, 1u);
     scene.environmentProbability = records.environmentProbability;
     scene.states = records.states;
-    scene.rayEpsilon = rayEpsilon(bounds);
     return scene;
 }
 

@@ -21,6 +21,7 @@ struct GpuScene {
     Buffer reflectanceTable;
 
     SceneNeeds needs;
+    glm::dvec3 origin{0.0}; // Scene::origin
     uint32_t triangles = 0;
     uint32_t bvhRoot = 0; // record index
     uint32_t lightCount = 0;
@@ -28,17 +29,12 @@ struct GpuScene {
     uint32_t environmentHeight = 1;
     float environmentProbability = 0.0f; // of a light sample going to the environment
     PlannedStates states;                // that updateScene may bring it to
-    float rayEpsilon = 0.0f;             // length by which ray origins leave their surface
 };
-
-// Ray origins leave their surface by this share of the scene's largest coordinate.
-inline constexpr float kRayEpsilonShare = 1e-5f;
-float rayEpsilon(const Bounds& bounds);
 
 // The bytes uploadScene will allocate, for Device::plan.
 std::vector<Device::PlannedBuffer> plannedBuffers(const SceneRecords& records, const Bvh& bvh);
 
-GpuScene uploadScene(Device& device, const SceneRecords& records, const Bvh& bvh, const Bounds& bounds);
+GpuScene uploadScene(Device& device, const SceneRecords& records, const Bvh& bvh);
 
 // Brings a scene on the device to another state of its materials' values (colours, roughness, emission; not
 // their textures) and of its environment: lights get their new powers, the needs stay. Between graph

@@ -6,6 +6,8 @@
 #include "engine/scene/gltf_nodes.h"
 #include "engine/scene/gltf_parse.h"
 #include "engine/scene/gltf_validate.h"
+#include "engine/scene/scene_origin.h"
+#include <cmath>
 #include <map>
 #include <new>
 
@@ -47,16 +49,41 @@ void refuseTooMany(const gltf::SourceFile& source, const tinygltf::Model& model,
     }
 }
 
-void appendMeshes(const gltf::SourceFile& source, const tinygltf::Model& model,
+// Read once, placed by every node that names it. A node without a mesh has mesh -1, without primitives.
+using Meshes = std::map<int, std::vector<gltf::PrimitiveMesh>>;
+
+Meshes readMeshes(const gltf::SourceFile& source, const tinygltf::Model& model,
                   const std::vector<gltf::Placement>& nodes, Scene& scene) {
-    std::map<int, std::vector<gltf::PrimitiveMesh>> meshes; // read once, placed by every node that names it
+    Meshes meshes{{-1, {}}};
     for (const gltf::Placement& placement : nodes) {
         const int mesh = model.nodes[placement.node].mesh;
-        if (mesh < 0) continue;
         if (!meshes.contains(mesh)) meshes[mesh] = gltf::readMesh(source, model, mesh, scene);
-        for (const gltf::PrimitiveMesh& primitive : meshes[mesh])
-            gltf::appendInstance(primitive, placement.toWorld, scene);
     }
+    return meshes;
+}
+
+// World positions of vertices, or of every k-th where there are more than a median needs.
+std::vector<glm::dvec3> somePositions(const tinygltf::Model& model, const std::vector<gltf::Placement>& nodes,
+                                      const Meshes& meshes) {
+    constexpr uint64_t kMost = 1u << 20;
+    uint64_t count = 0;
+    for (const gltf::Placement& placement : nodes)
+        for (const gltf::PrimitiveMesh& primitive : meshes.at(model.nodes[placement.node].mesh))
+            count += primitive.vertices.size();
+    const uint64_t step = count / kMost + 1;
+    std::vector<glm::dvec3> positions;
+    uint64_t skip = 0;
+    for (const gltf::Placement& placement : nodes)
+        for (const gltf::PrimitiveMesh& primitive : meshes.at(model.nodes[placement.node].mesh)) {
+            const uint64_t vertices = primitive.vertices.size();
+            for (; skip < vertices; skip += step) {
+                const glm::dvec3 p(placement.toWorld * glm::dvec4(primitive.vertices[skip].position, 1.0));
+                const glm::vec3 single(p); // what is beyond floats takes no part
+                if (std::isfinite(single.x + single.y + single.z)) positions.push_back(p);
+            }
+            skip -= vertices;
+        }
+    return positions;
 }
 
 // The file itself and those it names: its buffers, and its pictures whether used or not.
@@ -83,10 +110,16 @@ Scene readScene(const std::filesystem::path& file) {
     scene.files = filesOf(source, model);
     gltf::noteIgnoredFeatures(model, scene.notes);
 
-    const std::vector<gltf::Placement> nodes = gltf::placeNodes(model);
+    std::vector<gltf::Placement> nodes = gltf::placeNodes(model);
     refuseTooMany(source, model, nodes);
     gltf::readMaterials(source, model, scene);
-    appendMeshes(source, model, nodes, scene);
+    const Meshes meshes = readMeshes(source, model, nodes, scene);
+    scene.origin = sceneOrigin(somePositions(model, nodes, meshes));
+    for (gltf::Placement& placement : nodes) {
+        placement.toWorld[3] -= glm::dvec4(scene.origin, 0.0);
+        for (const gltf::PrimitiveMesh& primitive : meshes.at(model.nodes[placement.node].mesh))
+            gltf::appendInstance(primitive, placement.toWorld, scene);
+    }
     scene.cameras = gltf::placeCameras(model, nodes, scene.notes);
     return scene;
 }

@@ -1,6 +1,6 @@
 // A scene as plain data: what the loader produces, the GPU upload and the CPU reference consume.
-// World space throughout: nodes and instances are already applied. Units are those of the file; radiance is
-// W/(sr m^2) as glTF's emissiveFactor x emissiveStrength states it; colours are linear Rec. 709.
+// World space throughout, less Scene::origin: nodes and instances are already applied. Units are those of the
+// file; radiance is W/(sr m^2) as glTF's emissiveFactor x emissiveStrength states it; colours are linear Rec. 709.
 #pragma once
 
 #include <cstdint>
@@ -95,6 +95,7 @@ struct SceneNotes {
 
 struct Scene {
     std::string name;
+    glm::dvec3 origin{0.0}; // where the file has position 0 of vertices and cameras
     std::vector<Vertex> vertices;
     std::vector<Triangle> triangles;
     std::vector<Material> materials; // at least one when there are triangles
@@ -114,7 +115,7 @@ struct Bounds {
 // Box of all triangle corners; the zero box for an empty scene.
 Bounds sceneBounds(const Scene& scene);
 
-// The camera that frames the scene's bounds from +Z, slightly above; used when a scene has none.
+// The camera that frames the bounds from +Z, slightly above; used when a scene has none.
 Camera framingCamera(const Bounds& bounds);
 
 } // namespace irradia

@@ -121,6 +121,7 @@ std::array<glm::uvec4, kMaterialValueRecords> packMaterialValues(const Material&
 
 SceneRecords packScene(const Scene& scene, const PlannedStates& states) {
     SceneRecords out;
+    out.origin = scene.origin;
     out.states = states;
     out.states.include(scene);
     LightRecords lights = packLights(scene, out.states.emitters);

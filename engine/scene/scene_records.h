@@ -42,6 +42,7 @@ struct SceneRecords {
     uint32_t environmentWidth = 0;
     uint32_t environmentHeight = 0;
     SceneNeeds needs;
+    glm::dvec3 origin{0.0};              // the scene's
     float environmentProbability = 0.0f; // of a light sample going to the environment
     PlannedStates states;                // this one among them
     std::vector<std::string> warnings;   // pictures that were made smaller to fit, and what will surprise

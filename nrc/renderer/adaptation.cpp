@@ -6,6 +6,7 @@
 namespace irradia {
 namespace {
 
+constexpr uint32_t kFirstFrames = 8; // before which agreement says little: a mean of all places
 constexpr float kDark = 0.01f;   // in the cache's scale
 constexpr float kMost = 1.5f;    // of `full`: what a single frame, maybe of an outlier, can say
 constexpr double kSlowest = 0.2; // learning rate: regions that come into view are to be learned
@@ -27,6 +28,7 @@ void Adaptation::observe(float meanPrediction, float meanTarget) {
     disagreement_ = config_.smoothing * disagreement_ + (1.0f - config_.smoothing) * now;
     observed_ = config_.smoothing * observed_ + (1.0f - config_.smoothing);
     const float beyond = std::abs(disagreement_ / observed_) - config_.threshold;
+    hasLearned_ = hasLearned_ || (++frames_ >= kFirstFrames && beyond <= 0.0f);
     const float range = std::max(config_.full - config_.threshold, 1e-6f);
     urgency_ = std::max(std::clamp(beyond / range, 0.0f, 1.0f), config_.calming * urgency_);
     if (urgency_ < 0.01f) urgency_ = 0.0f; // exactly as configured, at last

@@ -24,6 +24,8 @@ struct AdaptationConfig {
     // Steps of agreement from which on the learning rate falls as one over their number, to a fifth (Robbins
     // and Monro 1951): what wanders by learning's own noise comes to rest. 0 = never.
     uint32_t settling = 1024;
+
+    bool operator==(const AdaptationConfig&) const = default;
 };
 
 // Depends on what the frames before have found alone, so that the same frames learn the same.
@@ -37,6 +39,8 @@ public:
     // Of suffixes that end by roulette alone, in the next frame: at least `configured`; none if that is none.
     float unbiasedShare(float configured) const;
     float urgency() const { return urgency_; } // 0 to 1
+    // Whether predictions and targets have agreed once: from then on the cache is worth showing.
+    bool hasLearned() const { return hasLearned_; }
 
 private:
     AdaptationConfig config_;
@@ -45,6 +49,8 @@ private:
     // Sums over frames: of their weights times disagreement, of their weights.
     float disagreement_ = 0.0f, observed_ = 0.0f;
     float urgency_ = 0.0f;
+    uint32_t frames_ = 0; // observed
+    bool hasLearned_ = false;
     uint64_t taken_ = 0;  // steps
     double agreed_ = 0.0; // of these since something was urgent
 };

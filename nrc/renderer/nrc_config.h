@@ -1,13 +1,18 @@
 // The knobs of rendering with a cache, as JSON:
 //
-//     {"paths": {"spread": 0.01, "training_spread": 0.01, "unbiased_share": 0.0625, "suffix_bounces": 8},
+//     {"base": "balanced",
+//      "paths": {"spread": 0.01, "training_spread": 0.01, "unbiased_share": 0.0625,
+//      "suffix_bounces": 8, "residual_share": 0},
 //      "training": {"records": 65536, "min_records": 4096, "steps": 4, "self_training": "Ema",
 //      "uniform_share": 0},
 //      "adaptation": "off", or {"smoothing": 0.6, "threshold": 0.3, "full": 0.7, "most_steps": 16,
 //      "shortest_ema": 0.9, "calming": 0.85, "youth": 512, "settling": 1024},
 //      "factorise": "on", "shown": "Ema", "model": {...}}
 //
-// where every key may be missing; "model" is what nrc/config.h describes, of gpu::kCacheInputs inputs.
+// where "base" names the preset that all missing keys are inherited from (nrc/renderer/preset_base.h).
+// Without it every key must be there but "training_spread" (then as "spread"), "end_depth" (none),
+// "residual_share" and "uniform_share" (0). "model" is what nrc/config.h describes, of gpu::kCacheInputs
+// inputs; a file of it alone may have a "base" too.
 #pragma once
 
 #include "nrc/config.h"
@@ -45,12 +50,20 @@ struct NrcConfig {
     Weights selfTraining = Weights::Ema; // whose predictions end training paths
     Weights shown = Weights::Ema;        // whose predictions are rendered
     bool showReflectance = true; // false: predictions are rendered without the reflectance, to be looked at
-    ModelConfig model;           // default: that of the preset "faithful"
+    ModelConfig model;
+
+    bool operator==(const NrcConfig&) const = default;
 };
 
-// Throws Error: NotFound, or BadData naming the file and the key that is unknown or out of range.
+// Throws Error: NotFound, or BadData naming the file and the key that is unknown, missing or out of range.
 NrcConfig loadNrcConfig(const std::filesystem::path& file);
 NrcConfig parseNrcConfig(const std::string& json, const std::string& name);
+// With nothing inherited: parseNrcConfig gives it back, if not changed by a view.
+std::string toJson(const NrcConfig& config);
+
+// A model of its own, or with the preset's that its "base" names.
+ModelConfig loadCacheModel(const std::filesystem::path& file);
+ModelConfig parseCacheModel(const std::string& json, const std::string& name);
 
 // The presets that come with the project. Throws Error(Usage) naming those there are.
 NrcConfig nrcPreset(const std::string& name);

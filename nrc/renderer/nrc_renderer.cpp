@@ -2,33 +2,54 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
 
 namespace irradia {
 namespace {
 
-PathTracerOptions cachedPaths(PathTracerOptions options) {
-    options.cached = true;
-    return options;
-}
+constexpr uint64_t kPathBytes = gpu::kTrainingPathVectors * 16;
+constexpr uint64_t kVertexBytes = gpu::kMaxTrainingVertices * gpu::kTrainingVertexVectors * 16; // of a path
 
-uint32_t pixelCount(const NrcOptions& options) {
-    return options.paths.width * options.paths.height;
-}
+// Of a frame, whatever the size of the picture: more teach no more, and a binding holds them.
+constexpr uint32_t kMostRecords = 1u << 20;
 
 // Müller 2021 learns from 65,536 records a frame of 1920 x 1080 pixels.
 uint32_t recordsPerFrame(const NrcOptions& options) {
-    const double share = pixelCount(options) / (1920.0 * 1080.0);
-    const auto scaled = static_cast<uint32_t>(std::lround(options.config.recordsAt1080p * share));
-    return std::max(scaled, options.config.minRecords);
+    const double share = options.paths.pixels() / (1920.0 * 1080.0);
+    const double scaled = std::round(options.config.recordsAt1080p * share);
+    return std::max(static_cast<uint32_t>(std::min<double>(scaled, kMostRecords)), options.config.minRecords);
 }
 
-// At most, of a record each: that many tiles, and that many paths from surfaces.
+// At most, of a record each: that many tiles, camera paths (those of tiles with them), and paths from surfaces.
 uint32_t mostTiles(const NrcOptions& options) {
-    return std::min(recordsPerFrame(options), pixelCount(options));
+    return std::min(recordsPerFrame(options), options.paths.pixels());
+}
+
+uint32_t mostCameraPaths(const NrcOptions& options) {
+    return recordsPerFrame(options);
 }
 
 uint32_t mostSurfacePaths(const NrcOptions& options) {
     return static_cast<uint32_t>(std::lround(double(options.config.uniformShare) * recordsPerFrame(options)));
+}
+
+// Pixels of a wave at most, so that one binding holds the vertices of all tiles that it touches: of its own
+// pixels' share and, with those that lie in it by a part, of four rows of tiles.
+uint32_t mostPixelsOfWave(const NrcOptions& options, uint64_t bindingBytes) {
+    const uint64_t bound = bindingBytes / kVertexBytes - gpu::kTileRows;
+    const uint64_t tiles = mostTiles(options), rows = 4 * std::min<uint64_t>(options.paths.width, tiles);
+    return static_cast<uint32_t>(
+        std::min<uint64_t>((bound - rows) * options.paths.pixels() / tiles, UINT32_MAX));
+}
+
+PathTracerOptions pathOptions(bool isCpu, const VkPhysicalDeviceLimits& limits, const NrcOptions& options) {
+    PathTracerOptions paths = options.paths;
+    paths.cached = true;
+    paths.trainingPaths = std::max(mostCameraPaths(options) - mostTiles(options), mostSurfacePaths(options));
+    paths.waveSize = std::min(PathBuffers::wantedWave(isCpu, options.paths),
+                              mostPixelsOfWave(options, limits.maxStorageBufferRange));
+    return paths;
 }
 
 // How far away those are who see the surfaces: the mean chord of a convex body is 4 V / S (Cauchy).
@@ -42,7 +63,7 @@ CacheOptions cacheOptions(const NrcOptions& options, uint32_t largestWave) {
     cache.model = options.config.model;
     cache.queries = largestWave;
     cache.records = recordsPerFrame(options);
-    cache.trainingPaths = mostTiles(options) + mostSurfacePaths(options);
+    cache.trainingPaths = mostCameraPaths(options) + mostSurfacePaths(options);
     cache.steps = options.config.steps;
     cache.factorise = options.config.factorise;
     cache.selfTraining = options.config.selfTraining;
@@ -56,43 +77,36 @@ NrcRenderer::NrcRenderer(Device& device, const GpuScene& scene, const Bounds& bo
                          const NrcOptions& options, Profiler* profiler)
     : options_(options)
     , bounds_(bounds)
-    , tracer_(device, scene, cachedPaths(options.paths), profiler)
+    , tracer_(device, scene, pathOptions(device.isCpu(), device.limits(), options), profiler)
     , cache_(device, cacheOptions(options, tracer_.largestWave()))
     , adaptation_(options.config.adaptation, options.config.steps, options.config.model.optimizer.emaDecay)
     , hasSurfaces_(scene.triangles > 0)
     , training_(wantedPaths()) {}
 
-std::vector<Device::PlannedBuffer> NrcRenderer::plannedBuffers(const Device& device,
-                                                               const NrcOptions& options) {
-    auto planned = WavefrontPathTracer::plannedBuffers(device, cachedPaths(options.paths));
-    const uint32_t wave = WavefrontPathTracer::largestWave(device, options.paths);
-    for (auto& buffer : RadianceCache::plannedBuffers(cacheOptions(options, wave)))
-        planned.push_back(std::move(buffer));
-    return planned;
+std::vector<Device::PlannedBuffer> NrcRenderer::planned(bool isCpu, const VkPhysicalDeviceLimits& limits,
+                                                        const NrcOptions& options) {
+    const PathTracerOptions paths = pathOptions(isCpu, limits, options);
+    auto list = PathBuffers::planned(isCpu, paths);
+    auto cache = RadianceCache::planned(isCpu, limits,
+                                        cacheOptions(options, PathBuffers::largestWave(isCpu, paths)));
+    list.insert(list.end(), std::move_iterator(cache.begin()), std::move_iterator(cache.end()));
+    return list;
 }
 
 void NrcRenderer::renderFrame(const Camera& camera, uint32_t index) {
     FrameGraph& graph = tracer_.graph();
     tracer_.beginFrame();
     cache_.begin(graph);
-    for (const Wave& wave : tracer_.waves()) {
-        for (uint32_t sample = 0; sample < options_.paths.samplesPerFrame; ++sample) {
-            const CachePaths paths = cachePaths(learns_ && sample == 0);
-            cache_.beginQueries(graph);
-            tracer_.traceWave(camera, wave, index, sample, &paths);
-            graph.section("query");
-            cache_.answer(graph, tracer_.radiance(), options_.config.shown, options_.config.showReflectance);
-            graph.section("");
-        }
-        tracer_.addToFilm(wave);
-    }
-    if (learns_) {
-        graph.section("train");
-        for (const Wave& wave : tracer_.surfaceWaves(training_.surfaces))
-            tracer_.traceSurfaceWave(wave, index, meanChord(bounds_), surfacePaths());
-        cache_.learn(graph, training_.count(), adaptation_.effort());
+    for (Waves waves = tracer_.waves(); const auto wave = waves.next();) {
+        const CachePaths paths = cachePaths(*wave);
+        cache_.beginQueries(graph);
+        tracer_.traceWave(camera, *wave, index, &paths);
+        graph.section("query");
+        cache_.answer(graph, tracer_.radiance(), options_.config.shown, options_.config.showReflectance);
         graph.section("");
+        tracer_.addToFilm(*wave);
     }
+    if (learns_) learn(camera, index);
     graph.execute();
     tracer_.endFrame();
     counts_ = cache_.counts();
@@ -104,32 +118,95 @@ void NrcRenderer::renderFrame(const Camera& camera, uint32_t index) {
     training_ = wantedPaths();
 }
 
+// Paths that are not seen, and what all training paths of the frame teach.
+void NrcRenderer::learn(const Camera& camera, uint32_t index) {
+    FrameGraph& graph = tracer_.graph();
+    graph.section("train");
+    uint32_t first = training_.tiles();
+    for (Waves waves = tracer_.trainingWaves(training_.camera); const auto wave = waves.next();) {
+        const CachePaths paths = unseenPaths(*wave, first);
+        tracer_.traceWave(camera, *wave, index, &paths);
+        first += wave->paths();
+    }
+    for (Waves waves = tracer_.surfaceWaves(training_.surfaces); const auto wave = waves.next();) {
+        tracer_.traceSurfaceWave(*wave, index, meanChord(bounds_), unseenPaths(*wave, first));
+        first += wave->paths();
+    }
+    cache_.learn(graph, training_.count(), adaptation_.effort());
+    graph.section("");
+}
+
 void NrcRenderer::forgetFilm() {
     tracer_.forgetFilm();
 }
 
 // As many as give the wanted number of records if they are as long as in the frame before; tiles as square as
-// the picture allows.
+// the picture allows. Where that is more than a path a pixel, the others are not seen.
 NrcRenderer::TrainingPaths NrcRenderer::wantedPaths() const {
     const double width = options_.paths.width, height = options_.paths.height;
     const double most = mostTiles(options_);
     const double paths = recordsPerFrame(options_) / recordsPerPath_;
     const double surfaces = hasSurfaces_ ? std::round(options_.config.uniformShare * paths) : 0.0;
-    const double tiles = std::clamp(paths - surfaces, 1.0, most);
+    const double camera = std::clamp(paths - surfaces, 1.0, double(mostCameraPaths(options_)));
+    const double tiles = std::min(camera, most);
     const double x = std::clamp(std::floor(std::sqrt(tiles * width / height)), 1.0, std::min(width, most));
     const double y = std::clamp(std::floor(tiles / x), 1.0, std::min(height, std::floor(most / x)));
-    return {static_cast<uint32_t>(x), static_cast<uint32_t>(y),
+    const double unseen = camera > width * height ? camera - x * y : 0.0;
+    return {static_cast<uint32_t>(x), static_cast<uint32_t>(y), static_cast<uint32_t>(unseen),
             std::min(static_cast<uint32_t>(surfaces), mostSurfacePaths(options_))};
 }
 
-// All of such a path is suffix.
-CachePaths NrcRenderer::surfacePaths() const {
-    CachePaths paths = cachePaths(true);
-    paths.rule.lastDepth = options_.config.suffixBounces;
-    return paths;
+// The tiles that a wave's pixels touch, whole rows of them.
+RowRange NrcRenderer::tilesOf(const Wave& wave) const {
+    const auto tileRow = [&](uint32_t pixel) {
+        return pixel / options_.paths.width * training_.tilesY / options_.paths.height;
+    };
+    const uint32_t first = tileRow(wave.firstPixel), last = tileRow(wave.firstPixel + wave.pixels - 1);
+    return {first * training_.tilesX, (last + 1 - first) * training_.tilesX};
 }
 
-CachePaths NrcRenderer::cachePaths(bool train) const {
+CachePaths NrcRenderer::cachePaths(const Wave& wave) const {
+    gpu::CacheRule rule = this->rule();
+    if (!learns_ || wave.firstSample > 0) rule.tilesX = rule.tilesY = 0;
+    if (!isShown()) {
+        rule.boxHigh.w = std::numeric_limits<float>::infinity();
+        rule.endDepth = gpu::kNoDepth;
+    }
+    return bound(rule, tilesOf(wave));
+}
+
+// All of such a path is suffix.
+CachePaths NrcRenderer::unseenPaths(const Wave& wave, uint32_t firstTraining) const {
+    gpu::CacheRule rule = this->rule();
+    rule.lastDepth = options_.config.suffixBounces;
+    rule.waveTraining = firstTraining;
+    return bound(rule, {firstTraining, wave.paths()});
+}
+
+// With the ranges of these training paths.
+CachePaths NrcRenderer::bound(gpu::CacheRule rule, const RowRange& training) const {
+    rule.firstTraining = training.first / gpu::kTileRows * gpu::kTileRows;
+    const uint64_t paths = training.first + training.rows - rule.firstTraining;
+    return {cache_.queries(),
+            cache_.queryWeights(),
+            cache_.counters(),
+            {cache_.trainingPaths(), rule.firstTraining * kPathBytes, paths * kPathBytes},
+            {cache_.trainingVertices(), rule.firstTraining * kVertexBytes, paths * kVertexBytes},
+            cache_.trainingQueries(),
+            rule};
+}
+
+// A cache that knows nothing is not shown (of light that no path has found there is nothing to know), unless it is what is looked at, was asked for at a given vertex, or
+// has its error made up for by paths that go on.
+bool NrcRenderer::isShown() const {
+    const NrcConfig& config = options_.config;
+    const bool knows = adaptation_.hasLearned() && counts_.state.metLight != 0;
+    return isWarmingUp_ || knows || options_.paths.view != gpu::kViewPicture ||
+           config.endDepth != gpu::kNoDepth || config.spread < 0 || config.residualShare > 0;
+}
+
+// Where paths end, with all of the frame's training paths.
+gpu::CacheRule NrcRenderer::rule() const {
     const NrcConfig& config = options_.config;
     const glm::vec3 extent = bounds_.upper - bounds_.lower;
     const float longest = std::max({extent.x, extent.y, extent.z, 1e-30f});
@@ -141,20 +218,14 @@ CachePaths NrcRenderer::cachePaths(bool train) const {
     rule.endDepth = config.endDepth;
     rule.deepest = tracer_.deepestRay();
     rule.lastDepth = rule.deepest + config.suffixBounces;
-    rule.tilesX = train ? training_.tilesX : 0;
-    rule.tilesY = train ? training_.tilesY : 0;
+    rule.tilesX = training_.tilesX;
+    rule.tilesY = training_.tilesY;
     rule.width = options_.paths.width;
     rule.height = options_.paths.height;
     rule.unbiasedShare = adaptation_.unbiasedShare(config.unbiasedShare);
     rule.residualShare = config.residualShare;
     rule.trainingSpread = config.trainingSpread;
-    return {cache_.queries(),
-            cache_.queryWeights(),
-            cache_.counters(),
-            cache_.trainingPaths(),
-            cache_.trainingVertices(),
-            cache_.trainingQueries(),
-            rule};
+    return rule;
 }
 
 } // namespace irradia

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/path/wavefront_path_tracer.h"
+#include "nrc/batch_rows.h"
 #include "nrc/radiance_cache.h"
 #include "nrc/renderer/nrc_config.h"
 
@@ -16,17 +17,22 @@ struct NrcOptions {
 
 class NrcRenderer {
 public:
-    // `bounds`: the box in which the cache is asked, normally the scene's.
+    // `bounds`: the box in which the cache is asked, normally sceneBox's.
     NrcRenderer(Device& device, const GpuScene& scene, const Bounds& bounds, const NrcOptions& options,
                 Profiler* profiler = nullptr);
 
-    static std::vector<Device::PlannedBuffer> plannedBuffers(const Device& device, const NrcOptions& options);
+    // The buffers that the constructor allocates on a device of these limits, for Device::plan.
+    static std::vector<Device::PlannedBuffer> planned(bool isCpu, const VkPhysicalDeviceLimits& limits,
+                                                      const NrcOptions& options);
 
     // Adds a frame to the film and learns from it. `index` numbers it for the random numbers.
     void renderFrame(const Camera& camera, uint32_t index);
     void forgetFilm(); // what follows is averaged anew; what was learned stays
 
     void setLearning(bool learns) { learns_ = learns; } // false: the cache stays as it is
+    // true: the frames that follow are not looked at, and show the cache before it knows anything. Otherwise
+    // paths go on as the path tracer's until it has learned.
+    void setWarmingUp(bool warmsUp) { isWarmingUp_ = warmsUp; }
 
     const WavefrontPathTracer& tracer() const { return tracer_; }
     RadianceCache& cache() { return cache_; }
@@ -34,15 +40,22 @@ public:
     const Adaptation& adaptation() const { return adaptation_; }
 
 private:
-    // Training paths of a frame: one a tile of the picture, and those that start at the scene's surfaces.
+    // Training paths of a frame, numbered in this order: one a tile of the picture, those through the camera
+    // and from the scene's surfaces that are not seen.
     struct TrainingPaths {
-        uint32_t tilesX = 0, tilesY = 0, surfaces = 0;
-        uint32_t count() const { return tilesX * tilesY + surfaces; }
+        uint32_t tilesX = 0, tilesY = 0, camera = 0, surfaces = 0;
+        uint32_t tiles() const { return tilesX * tilesY; }
+        uint32_t count() const { return tiles() + camera + surfaces; }
     };
 
-    CachePaths cachePaths(bool train) const;
-    CachePaths surfacePaths() const;
+    void learn(const Camera& camera, uint32_t index);
     TrainingPaths wantedPaths() const;
+    RowRange tilesOf(const Wave& wave) const;
+    bool isShown() const;
+    gpu::CacheRule rule() const;
+    CachePaths cachePaths(const Wave& wave) const;
+    CachePaths unseenPaths(const Wave& wave, uint32_t firstTraining) const;
+    CachePaths bound(gpu::CacheRule rule, const RowRange& training) const;
 
     NrcOptions options_;
     Bounds bounds_;
@@ -54,6 +67,7 @@ private:
     double recordsPerPath_ = 4.0; // of the last frame's training paths
     TrainingPaths training_;      // of this frame
     bool learns_ = true;
+    bool isWarmingUp_ = false;
 };
 
 } // namespace irradia

@@ -1,7 +1,7 @@
 #include "samples/fit_image/image_learner.h"
 
 #include "kernels/pixels.h"
-#include "nrc/row_padding.h"
+#include "nrc/batch_rows.h"
 #include "samples/fit_image/pixels/pixels.h"
 #include "shared/network.h"
 #include <algorithm>
@@ -15,7 +15,7 @@ constexpr uint32_t kMaxInferRows = 1u << 16;
 constexpr uint32_t kMeasuredStep = UINT32_MAX; // key of the pixels that measure() looks at
 constexpr uint64_t kRecordBytes = 16;
 
-enum Counter : uint32_t { BatchRows, PredictedRows, Counters };
+enum Counter : uint32_t { LearnedRows, PredictedRows, Counters };
 
 uint32_t pixelCount(const Picture& picture) {
     return picture.width * picture.height;
@@ -94,10 +94,10 @@ std::span<const glm::vec4> ImageLearner::infer(const Buffer& inputs, uint32_t ro
 
 void ImageLearner::learn(uint32_t rows) {
     const auto start = std::chrono::steady_clock::now();
-    reinterpret_cast<uint32_t*>(counters_.mapped().data())[BatchRows] = rows;
+    reinterpret_cast<uint32_t*>(counters_.mapped().data())[LearnedRows] = rows;
     draw(stepGraph_, options_.log2Batch, step_, batchInputs_, batchTargets_);
     trainer_.train(stepGraph_,
-                   {{counters_, BatchRows, 1u << options_.log2Batch}, batchInputs_, batchTargets_});
+                   {{counters_, LearnedRows, 1u << options_.log2Batch}, batchInputs_, batchTargets_});
     stepGraph_.execute();
     profiler_.endFrame(
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());

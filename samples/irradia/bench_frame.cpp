@@ -3,6 +3,7 @@
 #include "commands.h"
 #include "engine/error.h"
 #include "frame_stats.h"
+#include "methods.h"
 #include "samples/support/interrupt.h"
 #include "samples/support/numbers.h"
 
@@ -42,7 +43,10 @@ void addBenchFrame(CLI::App& bench) {
     addWhole(*command, "--frames", options->frames, "Frames to time, after two that are not", 1, 100000)
         ->capture_default_str();
     addOutput(*command, "--json", options->json, "File for the numbers, - for stdout");
-    command->callback([options] { benchFrame(*options); });
+    command->callback([options, command] {
+        requireOptionsOf(options->request.method, *command);
+        benchFrame(*options);
+    });
 }
 
 } // namespace irradia

@@ -1,5 +1,5 @@
 #include "bench_mlp_cases.h"
-#include "nrc/row_padding.h"
+#include "nrc/batch_rows.h"
 #include "nrc/trainer.h"
 #include "shared/network.h"
 #include <chrono>

@@ -1,5 +1,4 @@
 #include "bench_ray_sets.h"
-#include "engine/scene/gpu_scene.h"
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -85,6 +84,12 @@ private:
     std::vector<float> areas_; // summed
 };
 
+// A point along a ray, moved off the surface there by a few roundings of what it is computed from.
+glm::vec3 leave(const BenchRay& ray, float t, const glm::vec3& normal) {
+    const glm::vec3 point = ray.origin + t * ray.direction, size = glm::abs(ray.origin) + glm::abs(point);
+    return point + 0x1p-21f * (std::max({size.x, size.y, size.z}) + t) * normal;
+}
+
 } // namespace
 
 BenchRaySets makeRaySets(const Scene& scene, const Camera& camera, glm::uvec2 size,
@@ -93,13 +98,12 @@ BenchRaySets makeRaySets(const Scene& scene, const Camera& camera, glm::uvec2 si
     BenchRaySets sets;
     sets.primary = primaryRays(camera, size, random);
     const LightPoints lights(scene);
-    const float epsilon = rayEpsilon(sceneBounds(scene));
     for (const BenchRay& ray : sets.primary) {
         const EmbreeHit hit = embree.closest(ray);
         if (hit.primitive == ~0u) continue;
         glm::vec3 normal = glm::normalize(hit.normal);
         if (glm::dot(normal, ray.direction) > 0.0f) normal = -normal;
-        const glm::vec3 origin = ray.origin + hit.t * ray.direction + epsilon * normal;
+        const glm::vec3 origin = leave(ray, hit.t, normal);
         sets.bounce.push_back({origin, cosineDirection(normal, random)});
         const glm::vec3 toLight = lights.sample(random) - origin;
         const float distance = glm::length(toLight);

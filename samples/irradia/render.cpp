@@ -2,6 +2,7 @@
 #include "commands.h"
 #include "engine/error.h"
 #include "frame_stats.h"
+#include "methods.h"
 #include "render_frames.h"
 #include "render_outputs.h"
 #include "samples/support/interrupt.h"
@@ -52,7 +53,6 @@ std::string headingOf(const RenderOptions& options, const FramePlan& plan) {
 }
 
 void render(RenderOptions options) {
-    options.request.method = chooseMethod(options.request);
     const FramePlan plan = planFrames(options);
     options.request.heading = headingOf(options, plan);
     options.request.firstFrame = plan.first;
@@ -97,8 +97,7 @@ void addFrameOptions(CLI::App& command, RenderOptions& options) {
             "\"value\"}, \"material\": {\"name\", \"base_color\", \"roughness\", \"metallic\"}, "
             "\"environment\": [r,g,b] or a factor, \"camera\": {...}, \"restart\": true (of the film); "
             "frames are numbered as by --frames, and warm-up sees the scene of the first; a change beyond "
-            "the "
-            "last is an error")
+            "the last is an error")
         ->group("Frames");
 }
 
@@ -115,7 +114,11 @@ void addRender(CLI::App& program) {
         ->group("Output");
     addFrameOptions(*command, *options);
     addProgressOption(*command, options->progress);
-    command->callback([options] { render(*options); });
+    command->callback([options, command] {
+        options->request.method = chooseMethod(options->request);
+        requireOptionsOf(options->request.method, *command);
+        render(*options);
+    });
 }
 
 } // namespace irradia

@@ -2,6 +2,7 @@
 
 #include "engine/error.h"
 #include "engine/log.h"
+#include "engine/scene/camera_matrices.h"
 #include "frame_stats.h"
 #include "samples/support/numbers.h"
 #include "samples/support/standard_streams.h"
@@ -47,6 +48,9 @@ DisplayOptions chooseDisplay(const RenderOutputs& outputs, const FilmImage& film
 void describe(LayeredImage& image, RenderSession& session, uint32_t frames, const FramePlan& plan,
               const RenderedFrames& run) {
     const RenderRequest& request = session.request();
+    const float aspect = static_cast<float>(image.width) / static_cast<float>(image.height);
+    image.matrices["worldToCamera"] = worldToCamera(session.camera());
+    image.matrices["worldToNDC"] = worldToNdc(session.camera(), aspect);
     auto& a = image.attributes;
     a["irradia.version"] = IRRADIA_VERSION;
     a["irradia.device"] = session.device().description().name;
@@ -69,6 +73,7 @@ void describe(LayeredImage& image, RenderSession& session, uint32_t frames, cons
     RadianceCache& cache = session.nrc()->cache();
     a["irradia.cache"] =
         fmt::format("--preset '{}' --network '{}' --warmup {}", request.preset, request.network, run.warmup);
+    a["irradia.preset"] = toJson(session.preset());
     a["irradia.model"] = toJson(cache.trainer().config());
     a["irradia.trainingSteps"] = std::to_string(session.nrc()->counts().training.steps);
 }

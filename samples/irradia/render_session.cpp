@@ -5,6 +5,9 @@
 #include "engine/image/picture_file.h"
 #include "engine/log.h"
 #include "engine/scene/area_table.h"
+#include "engine/scene/scene_box.h"
+#include "methods.h"
+#include "nrc/renderer/picture_memory.h"
 #include "samples/support/interrupt.h"
 #include "samples/support/numbers.h"
 #include "samples/support/program.h"
@@ -22,17 +25,10 @@ RecordAccess parseRecords(const std::string& text) {
     return RecordAccess::Auto;
 }
 
-void requireKnownMethod(const std::string& method) {
-    for (const char* known : {"pt", "nrc", "cache-view"})
-        if (method == known) return;
-    fail(ExitCode::Usage, "--method {} is unknown; there are pt, nrc and cache-view", method);
-}
-
 NrcConfig nrcConfig(const RenderRequest& request) {
     NrcConfig config =
         request.preset.ends_with(".json") ? loadNrcConfig(request.preset) : nrcPreset(request.preset);
-    if (!request.network.empty()) config.model = loadModelConfig(request.network);
-    if (request.method == "cache-view") config.endDepth = 0;
+    if (!request.network.empty()) config.model = loadCacheModel(request.network);
     return config;
 }
 
@@ -64,6 +60,9 @@ void reportScene(const RenderRequest& request, const Scene& scene,
                  const std::vector<std::string>& packingWarnings) {
     logLine("scene {}: {} triangles, {} materials, {} pictures", scene.name, scene.triangles.size(),
             scene.materials.size(), scene.images.size());
+    if (scene.origin != glm::dvec3(0.0))
+        logLine("scene {}: it stands about ({:g}, {:g}, {:g})", scene.name, scene.origin.x, scene.origin.y,
+                scene.origin.z);
     const std::vector<std::string> warnings = sceneWarnings(scene, packingWarnings);
     if (request.strict && !warnings.empty())
         fail(ExitCode::BadData, "{}: --strict allows no warning, and there {} {}: {}", request.scene,
@@ -75,7 +74,13 @@ void reportScene(const RenderRequest& request, const Scene& scene,
 
 void addRequestOptions(CLI::App& command, RenderRequest& request) {
     command.add_option("scene", request.scene, "glTF scene, .gltf or .glb")->required();
-    command.add_option("--camera", request.camera, "Camera by name, index or .json file")->group("Scene");
+    command
+        .add_option("--camera", request.camera,
+                    "Camera by name, index or .json file: {\"camera\": {\"position\": [x,y,z], "
+                    "\"look_at\": [x,y,z], \"up\": [x,y,z] (may be left out: +Y), \"vfov_deg\": degrees}, "
+                    "\"env\": an .exr or .hdr beside the file, or [R,G,B] (may be left out; --env comes "
+                    "first)}; \"aspect\" and what stands beside these two is ignored")
+        ->group("Scene");
     command
         .add_option("--env", request.environment, "Environment: FILE.exr, FILE.exr:LAYER, FILE.hdr or R,G,B")
         ->group("Scene");
@@ -88,7 +93,9 @@ void addRequestOptions(CLI::App& command, RenderRequest& request) {
         ->capture_default_str();
     command
         .add_option("--preset", request.preset,
-                    fmt::format("Of the cache: {}, or a .json file", fmt::join(nrcPresetNames(), ", ")))
+                    fmt::format("Of the cache: {}, or a .json file, which may inherit what it does not give: "
+                                "{{\"base\": \"balanced\", ...}}",
+                                fmt::join(nrcPresetNames(), ", ")))
         ->group("Method")
         ->capture_default_str();
     command
@@ -97,7 +104,10 @@ void addRequestOptions(CLI::App& command, RenderRequest& request) {
         ->group("Method");
     command.add_option("--reference", request.reference, "EXR of the same size, for --view error-sign")
         ->group("Method");
-    command.add_option("--network", request.network, "Model of the cache, a .json file")->group("Method");
+    command
+        .add_option("--network", request.network,
+                    "Model of the cache, a .json file; with a \"base\", that preset's model changed")
+        ->group("Method");
     command.add_option("--size", request.size, "Picture, WxH")->group("Method")->capture_default_str();
     addWhole(command, "--spp", request.samplesPerFrame, "Samples of a pixel per frame", 1, 65536)
         ->group("Method")
@@ -132,10 +142,18 @@ std::vector<NamedFile> inputFiles(const RenderRequest& request) {
 RenderSession::RenderSession(const RenderRequest& request)
     : request_(request)
     , size_(parseSize(request.size)) {
-    requireKnownMethod(request.method);
+    if (methodHasCache(request.method)) preset_ = nrcConfig(request);
     view_ = findView(request.view);
     reference_ = loadReference(view_, request.reference, size_);
     request_.device.records = parseRecords(request.records);
+    const NrcOptions options = rendererOptions();
+    device_ = std::make_unique<Device>(request_.device);
+    if (!request.heading.empty()) logLine("{}", request.heading);
+    logLine("device {} ({}), subgroups of {}, {} records", device_->description().name,
+            device_->description().driver, device_->subgroupSize(),
+            device_->texelRecords() ? "texel" : "storage");
+    requireRoomForPicture(*device_, options, hasCache());
+
     scene_ = loadScene(request.scene);
     const CameraFile chosen = chooseCamera(scene_, request.camera);
     camera_ = chosen.camera;
@@ -144,19 +162,12 @@ RenderSession::RenderSession(const RenderRequest& request)
 
     if (!request.changes.empty()) changes_ = ScriptedChanges(request.changes, scene_);
     if (request.endFrame) changes_.requireBefore(*request.endFrame);
-    const NrcOptions options = rendererOptions();
     SceneRecords records = packScene(scene_, changes_.states(scene_));
     if (options.config.uniformShare > 0.0f) packAreaTable(records);
-    if (!request.heading.empty()) logLine("{}", request.heading);
     reportScene(request_, scene_, records.warnings);
     stopIfInterrupted();
     const Bvh bvh = buildBvh(scene_);
     stopIfInterrupted();
-    device_ = std::make_unique<Device>(request_.device);
-    logLine("device {} ({}), subgroups of {}, {} records", device_->description().name,
-            device_->description().driver, device_->subgroupSize(),
-            device_->texelRecords() ? "texel" : "storage");
-
     createRenderer(options, records, bvh);
 }
 
@@ -168,6 +179,10 @@ std::vector<NamedFile> RenderSession::inputs() const {
     return files;
 }
 
+bool RenderSession::hasCache() const {
+    return methodHasCache(request_.method);
+}
+
 NrcOptions RenderSession::rendererOptions() const {
     NrcOptions options;
     options.paths.width = size_.x;
@@ -177,29 +192,20 @@ NrcOptions RenderSession::rendererOptions() const {
     options.paths.seed = request_.seed;
     options.paths.surfaces = request_.surfaces;
     options.seed = request_.seed;
-    const bool hasCache = request_.method != "pt";
-    if (hasCache) {
-        options.config = nrcConfig(request_);
-        view_.applyTo(options);
-    }
-    if (!hasCache && !request_.network.empty())
-        fail(ExitCode::Usage, "--network is for the methods with a cache; --method pt has none");
-    if (!hasCache && view_.needsCache())
-        fail(ExitCode::Usage, "--view {} is for the methods with a cache; --method pt has none", view_.name);
+    if (!hasCache()) return options;
+    options.config = preset_;
+    if (request_.method == "cache-view") options.config.endDepth = 0;
+    view_.applyTo(options);
     return options;
 }
 
 void RenderSession::createRenderer(const NrcOptions& options, const SceneRecords& records, const Bvh& bvh) {
-    const bool hasCache = request_.method != "pt";
     auto plan = plannedBuffers(records, bvh);
-    for (auto& buffer : hasCache ? NrcRenderer::plannedBuffers(*device_, options)
-                                 : WavefrontPathTracer::plannedBuffers(*device_, options.paths))
-        plan.push_back(std::move(buffer));
+    for (auto& buffer : pictureBuffers(*device_, options, hasCache())) plan.push_back(std::move(buffer));
     device_->plan(plan);
-    const Bounds bounds = sceneBounds(scene_);
-    gpuScene_ = uploadScene(*device_, records, bvh, bounds);
-    if (hasCache)
-        nrc_ = std::make_unique<NrcRenderer>(*device_, gpuScene_, bounds, options, &profiler_);
+    gpuScene_ = uploadScene(*device_, records, bvh);
+    if (hasCache())
+        nrc_ = std::make_unique<NrcRenderer>(*device_, gpuScene_, sceneBox(scene_), options, &profiler_);
     else
         tracer_ = std::make_unique<WavefrontPathTracer>(*device_, gpuScene_, options.paths, &profiler_);
 }
@@ -222,6 +228,7 @@ double RenderSession::renderFrame(uint32_t number) {
 
 double RenderSession::renderWarmupFrame(uint32_t index) {
     applyChanges(request_.firstFrame);
+    if (nrc_) nrc_->setWarmingUp(true);
     return renderWith(UINT32_MAX - index);
 }
 
@@ -239,6 +246,7 @@ double RenderSession::renderWith(uint32_t randomIndex) {
 
 FilmImage RenderSession::readFilm() const {
     FilmImage film = tracer().readFilm();
+    requireFrames(film);
     view_.finish(film, reference_);
     return film;
 }
@@ -251,6 +259,7 @@ void RenderSession::forgetFilm() {
 }
 
 void RenderSession::endWarmup() {
+    if (nrc_) nrc_->setWarmingUp(false);
     forgetFilm();
     profiler_.reset();
 }

@@ -63,7 +63,8 @@ public:
     std::vector<NamedFile> inputs() const; // every file that was read for it
     Device& device() { return *device_; }
     const View& view() const { return view_; }
-    FilmImage readFilm() const; // as the view shows it
+    const NrcConfig& preset() const { return preset_; } // with all it inherits, of methods with a cache
+    FilmImage readFilm() const;                         // as the view shows it
     const WavefrontPathTracer& tracer() const { return nrc_ ? nrc_->tracer() : *tracer_; }
     NrcRenderer* nrc() { return nrc_.get(); } // null where the method has no cache
     Profiler& profiler() { return profiler_; }
@@ -71,6 +72,7 @@ public:
     glm::uvec2 size() const { return size_; }
 
 private:
+    bool hasCache() const;
     void applyChanges(uint32_t frame);
     double renderWith(uint32_t randomIndex);
     void forgetFilm();
@@ -79,6 +81,7 @@ private:
 
     RenderRequest request_;
     glm::uvec2 size_;
+    NrcConfig preset_;
     View view_;
     std::vector<glm::vec3> reference_;
     Scene scene_;

@@ -1,7 +1,6 @@
 #include "scripted_changes.h"
 
 #include "engine/error.h"
-#include "engine/image/read_file.h"
 #include "engine/scene/load_scene.h"
 #include "nrc/json_fields.h"
 #include <algorithm>
@@ -98,7 +97,7 @@ SceneChange readChange(const Json& json, const std::string& file, const std::str
     if (const Json* value = fields.member("environment"))
         change.environment = readEnvironment(*value, fields, scene);
     if (const Json* value = fields.member("camera"))
-        change.camera = parseCamera(*value, file, fields.pathOf("camera"));
+        change.camera = parseCamera(*value, file, fields.pathOf("camera"), scene.origin);
     if (const Json* value = fields.member("restart")) {
         if (!value->is_boolean()) fields.refuse("restart", "true or false");
         change.restart = value->get<bool>();
@@ -125,8 +124,7 @@ void SceneChange::applyTo(Scene& scene) const {
 
 ScriptedChanges::ScriptedChanges(const std::filesystem::path& file, const Scene& scene)
     : file_(file.string()) {
-    const auto bytes = readFile(file);
-    const Json json = parseJson(std::string(bytes.begin(), bytes.end()), file_);
+    const Json json = loadJson(file);
     if (!json.is_array())
         fail(ExitCode::BadData, "{}: must be a list of changes, each an object with a frame", file_);
     for (const Json& entry : json) {

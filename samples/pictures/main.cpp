@@ -1,6 +1,7 @@
 // pictures: puts EXR pictures into one, side by side for the eye or as their mean for a reference.
-#include "engine/error.h"
 #include "samples/pictures/pictures.h"
+#include "samples/support/numbers.h"
+#include "samples/support/outputs.h"
 #include "samples/support/program.h"
 
 namespace irradia {
@@ -9,7 +10,7 @@ namespace {
 struct Request {
     std::vector<std::string> pictures;
     std::string output;
-    int scale = 1;
+    uint32_t scale = 1;
 };
 
 std::vector<LayeredImage> readAll(const std::vector<std::string>& files) {
@@ -19,33 +20,29 @@ std::vector<LayeredImage> readAll(const std::vector<std::string>& files) {
 }
 
 // Refuses what would be lost, or lost time, before anything is read.
-void requireOutput(const Request& request, const std::string& ending) {
-    if (!request.output.ends_with(ending))
-        fail(ExitCode::Usage, "-o {}: the name must end in {}", request.output, ending);
-    for (const std::string& file : request.pictures) {
-        std::error_code absent;
-        if (std::filesystem::equivalent(file, request.output, absent))
-            fail(ExitCode::Usage, "-o {} would replace a picture that is read", request.output);
-    }
-    requireWritable(request.output);
+void checkOutput(const Request& request, const char* ending) {
+    const NamedFile output{"-o", request.output};
+    requireEnding(output, {ending});
+    std::vector<NamedFile> inputs;
+    for (const std::string& file : request.pictures) inputs.push_back({"a picture that is read", file});
+    checkOutputs({output}, inputs);
 }
 
 CLI::App* addVerb(CLI::App& program, const char* name, const char* what, const char* output,
                   Request& request) {
     CLI::App* verb = program.add_subcommand(name, what);
     verb->add_option("pictures", request.pictures, "EXR files of one size")->required();
-    verb->add_option("-o,--output", request.output, output)->required();
+    addOutput(*verb, "-o,--output", request.output, output)->required();
     return verb;
 }
 
 void addRow(CLI::App& program, Request& request) {
     CLI::App* row = addVerb(program, "row", "Side by side, as a screen shows them", "PNG file", request);
-    row->add_option("--scale", request.scale, "Pixels become so many wide and high")
-        ->check(CLI::Range(1, 16))
+    addWhole(*row, "--scale", request.scale, "Pixels become so many wide and high", 1, 16)
         ->capture_default_str();
     row->callback([&request] {
-        requireOutput(request, ".png");
-        writePng(request.output, pictureRow(readAll(request.pictures), request.scale));
+        checkOutput(request, ".png");
+        writePng(request.output, pictureRow(readAll(request.pictures), static_cast<int>(request.scale)));
     });
 }
 
@@ -53,7 +50,7 @@ void addMean(CLI::App& program, Request& request) {
     CLI::App* mean = addVerb(program, "mean", "The mean of R, G and B, each picture counting alike",
                              "EXR file, half floats", request);
     mean->callback([&request] {
-        requireOutput(request, ".exr");
+        checkOutput(request, ".exr");
         writeHalfExr(request.output, meanPicture(readAll(request.pictures)));
     });
 }

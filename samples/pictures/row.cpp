@@ -1,4 +1,7 @@
+#include "engine/image/display.h"
 #include "samples/pictures/pictures.h"
+
+#include "engine/image/display.h"
 #include "samples/pictures/same_size.h"
 #include <algorithm>
 

@@ -32,7 +32,9 @@ glm::vec3 skyRadiance(glm::vec3 direction) {
 }
 
 void writeSky(const std::filesystem::path& file) {
-    LayeredImage image{256, 128, {}, {}};
+    LayeredImage image;
+    image.width = 256;
+    image.height = 128;
     std::vector<glm::vec3> pixels;
     for (int y = 0; y < image.height; y++) {
         const float theta =

@@ -29,9 +29,10 @@ bool isSameFile(const std::string& a, const std::string& b) {
 
 CLI::Option* addOutput(CLI::App& command, const std::string& name, std::string& file,
                        const std::string& meaning) {
-    const CLI::callback_t read = [&file, name](const CLI::results_t& texts) {
+    const std::string shortest = name.substr(0, name.find(','));
+    const CLI::callback_t read = [&file, shortest](const CLI::results_t& texts) {
         file = texts.back();
-        if (file.empty()) fail(ExitCode::Usage, "{}: the file's name is empty", name);
+        if (file.empty()) fail(ExitCode::Usage, "{}: the file's name is empty", shortest);
         return true;
     };
     return command.add_option(name, read, meaning)->type_name("FILE");

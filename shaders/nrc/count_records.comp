@@ -14,6 +14,7 @@ layout(push_constant) uniform Push { RecordsParams params; };
 
 shared uint counts[gl_WorkGroupSize.x];
 shared float sums[gl_WorkGroupSize.x], largest[gl_WorkGroupSize.x];
+shared uint gathers[gl_WorkGroupSize.x];
 
 // The scale is a power of two that brings the targets' brightness near 1, and stays while it is within a factor of 4. Roots,
 // since of plain luminance a few huge targets would decide the mean. Until a network has learned there is nothing that
@@ -40,17 +41,19 @@ void main() {
     uint lane = gl_LocalInvocationID.x;
     uint share = (params.paths + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x;
     uint begin = min(lane * share, params.paths), end = min(begin + share, params.paths);
-    uint count = 0u;
+    uint count = 0u, light = 0u;
     float sum = 0.0, most = 0.0;
     for (uint path = begin; path < end; ++path) {
         uvec4 s = loadRecord(pathSums, path);
         count += s.x;
         sum += uintBitsToFloat(s.y);
         most = max(most, uintBitsToFloat(s.z));
+        light |= s.w;
     }
     counts[lane] = count;
     sums[lane] = sum;
     largest[lane] = most;
+    gathers[lane] = light;
     barrier();
     if (lane == 0u) {
         uint total = 0u;
@@ -62,6 +65,7 @@ void main() {
             total += here;
             sum += sums[i];
             most = max(most, largest[i]);
+            cacheState.metLight |= gathers[i];
         }
         counters[kRecordCounter] = min(total, params.capacity);
         counters[kSkippedRecords] = total - min(total, params.capacity);

@@ -3,7 +3,7 @@
 #extension GL_EXT_buffer_reference : enable
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : enable
 #pragma variant gather_records_by_address BY_ADDRESS
-// The batch's records side by side. One with a value that is not finite or too large becomes a row of zeros and is marked.
+// Records of a part of the batch side by side. One with a value that is not finite or too large becomes a row of zeros and is marked.
 #include "lib/kernel.glsl"
 #include "lib/permutation.glsl"
 #include "nrc/state.glsl"
@@ -51,8 +51,8 @@ void clearRecord(uint row) {
 
 void main() {
     uint row = gl_GlobalInvocationID.x;
-    if (row >= state.batchRows) return;
-    bool use = copyRecord(permute(state.batchFirst + row, state.records, state.permutationKey), row);
+    if (params.first + row >= state.batchRows) return;
+    bool use = copyRecord(permute(state.batchFirst + params.first + row, state.records, state.permutationKey), row);
     storeWord(usable, row, use ? 1u : 0u);
     if (use) return;
     clearRecord(row);

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Loss and brightness of every row, and the gradient of the loss by the results, before the mean over the batch is taken:
+// Loss and brightness of every row of a part of the batch, and the gradient of the loss by the results, before the mean over the batch is taken:
 // (p - t)^2 / d^e with the denominator d = p^2 + epsilon detached (Lehtinen 2018), or with p's luminance for all channels
 // (Müller 2021, 4.3).
 #include "lib/kernel.glsl"
@@ -43,8 +43,8 @@ vec4 handedOn(vec4 gradient) { return clamp(params.lossScale * gradient, -params
 float brightness(vec4 values) { return kOutputs == 3u ? luminance(values.xyz) : dot(values, vec4(1.0 / float(kOutputs))); }
 
 void main() {
-    uint row = params.first + gl_GlobalInvocationID.x;
-    if (row >= state.batchRows) return;
+    uint row = gl_GlobalInvocationID.x;
+    if (params.first + row >= state.batchRows) return;
     vec4 gradient[kQuads];
     float loss = 0.0, predicted = 0.0, wanted = 0.0;
     bool finite = true;

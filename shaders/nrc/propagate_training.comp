@@ -11,7 +11,8 @@ layout(set = 0, binding = 2, std430) buffer TrainingVertices { vec4 trainingVert
 RECORDS_READ(3, queries); // of the training paths
 RECORDS_READ(4, results);
 layout(set = 0, binding = 5, std430) readonly buffer State { CacheState cacheState; };
-RECORDS_WRITE(6, pathSums); // per path: records (uint), of the targets' luminance the roots' sum, and the largest
+// Per path: records (uint), of the targets' luminance the roots' sum and the largest, 1 (uint) if it has gathered light.
+RECORDS_WRITE(6, pathSums);
 layout(push_constant) uniform Push { RecordsParams params; };
 #include "nrc/prediction.glsl"
 
@@ -26,13 +27,16 @@ void main() {
         l = toRadiance(uintBitsToFloat(loadRecord(results, path).rgb), params.factorise != 0u ? factor : vec3(1.0));
     }
     float rootSum = 0.0, largest = 0.0;
+    bool gathers = false;
     for (uint i = vertices; i > 0u; --i) {
         uint at = (path * kMaxTrainingVertices + i - 1u) * kTrainingVertexVectors;
-        l = trainingVertices[at + kGathered].rgb + trainingVertices[at + kThroughput].rgb * l;
+        vec3 gathered = trainingVertices[at + kGathered].rgb;
+        gathers = gathers || any(greaterThan(gathered, vec3(0.0)));
+        l = gathered + trainingVertices[at + kThroughput].rgb * l;
         trainingVertices[at + kGathered].rgb = l;
         float y = luminance(l);
         rootSum += y >= 0.0 && y < 1e15 ? sqrt(y) : 0.0; // what is not finite the trainer drops and counts
         largest = max(largest, y);
     }
-    storeRecord(pathSums, path, uvec4(vertices, floatBitsToUint(rootSum), floatBitsToUint(largest), 0u));
+    storeRecord(pathSums, path, uvec4(vertices, floatBitsToUint(rootSum), floatBitsToUint(largest), gathers ? 1u : 0u));
 }

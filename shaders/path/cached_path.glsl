@@ -7,6 +7,7 @@
 #include "lib/rng.glsl"
 #include "path/surface.glsl"
 #include "path/training_light.glsl"
+#include "path/wave.glsl"
 #include "shared/network.h"
 
 struct CachedPath {
@@ -27,11 +28,11 @@ struct CachedPath {
 // The first row or column of a tile, of `tiles` that share `size` pixels.
 uint tileBegin(uint tile, uint tiles, uint size) { return (tile * size + tiles - 1u) / tiles; }
 
-// The training path that this pixel's path is, + 1: one pixel of each tile has one, another in each frame. Paths from
-// surfaces all train.
-uint trainingPathOf(uint pixel) {
+// The training path that a path is, + 1, counted from rule.firstTraining on: of each tile's pixels one has one, another in each
+// frame, in the first of the frame's samples. Of waves that are not seen all paths train.
+uint trainingPathOf(uint path, uint pixel) {
     if (rule.tilesX == 0u) return 0u;
-    if (pixel >= kFirstSurfacePath) return rule.tilesX * rule.tilesY + pixel - kFirstSurfacePath + 1u;
+    if (pixel >= kFirstTrainingPixel) return rule.waveTraining - rule.firstTraining + path + 1u;
     uvec2 at = uvec2(pixel % rule.width, pixel / rule.width);
     uvec2 tiles = uvec2(rule.tilesX, rule.tilesY);
     uvec2 tile = at * tiles / uvec2(rule.width, rule.height);
@@ -40,16 +41,16 @@ uint trainingPathOf(uint pixel) {
     uint index = tile.y * tiles.x + tile.x;
     uvec4 random = randomBits(index, params.sampleIndex, kTileBlock, params.seed);
     bool chosen = all(equal(at, low + uvec2(uniformIndex(random.x, high.x - low.x), uniformIndex(random.y, high.y - low.y))));
-    return chosen ? index + 1u : 0u;
+    return chosen && sampleInWave(path) == 0u ? index - rule.firstTraining + 1u : 0u;
 }
 
 // distance and cosine: of the ray at the vertex where it arrives.
 CachedPath beginPath(uint path, uint pixel, float distance, float cosine) {
     CachedPath c;
     c.path = path;
-    c.training = trainingPathOf(pixel);
-    float choice = unitFloat(randomBits(pixel, params.sampleIndex, kCameraBlock, params.seed).z);
-    c.flags = (choice < rule.unbiasedShare ? kPathUnbiased : 0u) | (pixel >= kFirstSurfacePath ? kPathEnded : 0u);
+    c.training = trainingPathOf(path, pixel);
+    float choice = unitFloat(randomBits(pixel, sampleOf(path), kCameraBlock, params.seed).z);
+    c.flags = (choice < rule.unbiasedShare ? kPathUnbiased : 0u) | (pixel >= kFirstTrainingPixel ? kPathEnded : 0u);
     c.a0 = distance * distance / (4.0 * kPi * cosine);
     c.spread = 0.0;
     c.weight = vec3(1.0);
@@ -140,7 +141,7 @@ void recordVertex(inout CachedPath c, CacheInputs inputs) {
 void endInCache(CachedPath c, CacheInputs inputs) {
     closeVertex(c);
     [[unroll]] for (uint q = 0u; q < kCacheInputQuads; ++q)
-        storeRecord(trainingQueries, quadIndex(c.training - 1u, q, kCacheInputQuads), floatBitsToUint(inputs.quads[q]));
+        storeRecord(trainingQueries, quadIndex(rule.firstTraining + c.training - 1u, q, kCacheInputQuads), floatBitsToUint(inputs.quads[q]));
     uint at = (c.training - 1u) * kTrainingPathVectors;
     trainingPaths[at].w = c.vertices;
     trainingPaths[at + 1u] = uvec4(0u, 0u, 0u, 1u);
@@ -163,7 +164,7 @@ CachedPath arrive(bool alive, uint path, uint pixel, Surface s, vec3 view, float
     bool isCached = isInBox(s.position) && !delta;
 
     bool asks = beforeQuery && isCached && (hasSpread(c, rule.boxHigh.w) || params.depth >= rule.endDepth);
-    float choice = unitFloat(randomBits(pixel, params.sampleIndex, lightChoiceBlock(params.depth), params.seed).y);
+    float choice = unitFloat(randomBits(pixel, sampleOf(path), lightChoiceBlock(params.depth), params.seed).y);
     bool goesOn = choice < rule.residualShare;
     float share = max(rule.residualShare, 1e-6);
     ask(asks, c, inputs, goesOn ? beta * (1.0 - 1.0 / share) : beta);

@@ -3,6 +3,7 @@
 // (light_tree.glsl). Bindings: those of emitters.glsl and environment.glsl and `environmentAlias` (records).
 #ifndef IRRADIA_PATH_LIGHT_SAMPLING_GLSL
 #define IRRADIA_PATH_LIGHT_SAMPLING_GLSL
+#include "lib/plane_error.glsl"
 #include "lib/rng.glsl"
 #include "path/emitters.glsl"
 #include "path/environment.glsl"
@@ -41,15 +42,19 @@ LightSample sampleTriangleLight(Receiver receiver, uvec4 random) {
     uint primitive = loadRecord(lights, choice.light).z;
     TriangleRecord tri = loadTriangle(primitive);
     vec2 b = sampleTriangle(vec2(unitFloat(random.z), unitFloat(random.w)));
-    vec3 to = tri.p0 + b.x * tri.e1 + b.y * tri.e2 - receiver.point;
+    vec3 point = tri.p0 + b.x * tri.e1 + b.y * tri.e2;
+    vec3 to = point - receiver.point;
     float distance = length(to);
     vec3 direction = to / max(distance, 1e-30);
     vec3 normal = cross(tri.e1, tri.e2);
     float doubleArea = length(normal);
-    float cosine = -dot(normal, direction) / max(doubleArea, 1e-30); // > 0: seen from the front
+    normal /= doubleArea;
+    float cosine = -dot(normal, direction); // > 0: seen from the front
     vec3 radiance = emittedRadiance(tri.material, cosine > 0.0, attributesFor(kEmissiveTexture, primitive, b));
     float pdf = abs(cosine) > 1e-6 ? trianglePdf(choice.chance, 0.5 * doubleArea, distance, abs(cosine)) : 0.0;
-    return LightSample(direction, distance * (1.0 - 1e-4), radiance, pdf);
+    vec3 reach = abs(b.x * tri.e1) + abs(b.y * tri.e2);
+    float error = pointError(normal, tri.p0, reach, point) + heightError(tri.e1, tri.e2, doubleArea, reach + abs(to));
+    return LightSample(direction, lengthBefore(distance, abs(cosine), error), radiance, pdf);
 }
 
 // One light sample for a vertex: `random` drives it, `choice` in [0, 1) picks the environment or the triangles.

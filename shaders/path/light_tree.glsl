@@ -31,14 +31,14 @@ LightBranch lightBranch(uint node, Receiver receiver) {
     vec3 to = receiver.point - sphere.xyz;
     float squared = dot(to, to);
     float squaredRadius = sphere.w * sphere.w;
-    float scale = inversesqrt(max(squared, 1e-30));
+    float scale = inversesqrt(max(squared, 1e-37));
     float cosSphere = sqrt(max(1.0 - squaredRadius * scale * scale, 0.0)); // of the angle that its radius subtends
     float cosAxis = clamp(dot(decodeOctahedral(r.x), to) * scale, -1.0, 1.0);
     float cosNormal = clamp(-dot(receiver.normal, to) * scale, -1.0, 1.0);
     float cosines = max(cosOfExcess(cosOfExcess(cosAxis, uintBitsToFloat(r.y)), cosSphere), 0.0) *
                     max(cosOfExcess(cosNormal, cosSphere), 0.0);
     bool isWithin = squared <= squaredRadius;
-    return LightBranch(uintBitsToFloat(r.z) * (isWithin ? 1.0 : cosines) / max(max(squared, squaredRadius), 1e-30), r.w);
+    return LightBranch(uintBitsToFloat(r.z) * (isWithin ? 1.0 : cosines) / max(max(squared, squaredRadius), 1e-37), r.w);
 }
 
 struct LightPair {

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The first hit of each path for the AOV layers: albedo, shading normal, position, depth, summed over samples.
+// The first hits of each pixel for the AOV layers: albedo, shading normal, position, depth, summed over samples in their order.
 #include "lib/kernel.glsl"
 #include "shared/path.h"
 #include "shared/queue.h"
@@ -16,18 +16,26 @@ HALVES_READ(7, texels);
 layout(push_constant) uniform Push { SurfaceParams params; };
 #include "path/surface.glsl"
 
-void main() {
-    uint slot = gl_GlobalInvocationID.x;
-    if (slot >= params.pathCount) return;
+void addHit(uint slot, inout vec4 layers[kSurfaceVectors]) {
     uvec4 hit = loadRecord(hits, slot);
     if (hit.y == kNoPrimitive) return;
-    uint path = loadRecord(rays, slot * kRayRecords).w;
     vec3 view = -uintBitsToFloat(loadRecord(rays, slot * kRayRecords + 1u).xyz);
     Surface s = loadSurface(hit.y, uintBitsToFloat(hit.zw), view);
     vec3 albedo = s.bsdf.diffuse + s.bsdf.specularF0;
     float depth = dot(s.position - params.cameraPosition.xyz, params.cameraForward.xyz);
-    uint at = (params.firstPixel + path) * kSurfaceVectors;
-    surfaces[at] += vec4(albedo, 1.0);
-    surfaces[at + 1u] += vec4(s.shadingNormal, depth);
-    surfaces[at + 2u] += vec4(s.position, 0.0);
+    layers[0] += vec4(albedo, 1.0);
+    layers[1] += vec4(s.shadingNormal, depth);
+    layers[2] += vec4(s.position, 0.0);
+}
+
+// Camera rays stand in the queue in the order of their paths.
+void main() {
+    uint pixel = gl_GlobalInvocationID.x;
+    if (pixel >= params.pixels) return;
+    uint at = pixel * kSurfaceVectors;
+    vec4 layers[kSurfaceVectors] = vec4[](surfaces[at], surfaces[at + 1u], surfaces[at + 2u]);
+    uint slot = pixel << params.log2Samples, end = slot + (1u << params.log2Samples);
+    do addHit(slot, layers);
+    while (++slot < end);
+    [[unroll]] for (uint i = 0u; i < kSurfaceVectors; ++i) surfaces[at + i] = layers[i];
 }

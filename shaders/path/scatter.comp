@@ -33,6 +33,7 @@ layout(push_constant) uniform Push { BounceParams params; CacheRule rule; };
 layout(push_constant) uniform Push { BounceParams params; };
 #endif
 #include "path/light_sampling.glsl"
+#include "path/wave.glsl"
 #include "path/reflectance.glsl"
 #include "path/surface.glsl"
 #ifdef WITH_CACHE
@@ -72,7 +73,8 @@ void main() {
     uint path = loadRecord(rays, slot * kRayRecords).w;
     vec3 view = -uintBitsToFloat(loadRecord(rays, slot * kRayRecords + 1u).xyz);
     vec3 beta = uintBitsToFloat(loadRecord(rays, slot * kRayRecords + 2u).rgb);
-    uint pixel = params.firstPixel + path;
+    uint pixel = pixelOf(path);
+    uint sampleIndex = sampleOf(path);
 
     Surface s = loadSurface(alive ? hit.y : 0u, uintBitsToFloat(hit.zw), view);
 #ifdef WITH_CACHE
@@ -84,7 +86,7 @@ void main() {
 #endif
     Frame frame = frameFromNormal(s.shadingNormal);
     vec3 v = toLocal(frame, view);
-    vec3 origin = s.position + s.geometricNormal * params.rayEpsilon;
+    vec3 origin = s.position + s.geometricNormal * s.error;
     vec3 abcView = reflectanceAt(v.z, s.roughness);
     float mendView = diffuseMend(s.bsdf, abcView);
     float pSpecular = kHasSpecular ? specularProbability(s.bsdf, abcView, mendView) : 0.0;
@@ -92,10 +94,10 @@ void main() {
     uint normalCode = encodeOctahedral(s.shadingNormal); // as a ray's emissive hit will find it
     if (kHasEmitters || kHasEnvironment) {
         float choice = kHasEmitters && kHasEnvironment
-                           ? unitFloat(randomBits(pixel, params.sampleIndex, lightChoiceBlock(params.depth), params.seed).x)
+                           ? unitFloat(randomBits(pixel, sampleIndex, lightChoiceBlock(params.depth), params.seed).x)
                            : 0.0;
         LightSample light = sampleLight(
-            Receiver(origin, decodeOctahedral(normalCode)), randomBits(pixel, params.sampleIndex, lightBlock(params.depth), params.seed), choice);
+            Receiver(origin, decodeOctahedral(normalCode)), randomBits(pixel, sampleIndex, lightBlock(params.depth), params.seed), choice);
         vec3 l = toLocal(frame, light.direction);
         float mend = min(mendView, diffuseMend(s.bsdf, reflectanceAt(l.z, s.roughness)));
         BsdfValue value = evaluateBsdf(s.bsdf, v, l, mend, pSpecular, kHasSpecular);
@@ -110,7 +112,7 @@ void main() {
         pushShadowRay(alive && counts, origin, light.tMax, light.direction, path, contribution);
     }
 
-    vec4 u = unitFloats(randomBits(pixel, params.sampleIndex, bsdfBlock(params.depth), params.seed));
+    vec4 u = unitFloats(randomBits(pixel, sampleIndex, bsdfBlock(params.depth), params.seed));
     vec3 l = sampleBsdf(s.bsdf, v, u.xyz, pSpecular, kHasSpecular);
     vec3 direction = toWorld(frame, l);
     float mend = min(mendView, diffuseMend(s.bsdf, reflectanceAt(l.z, s.roughness)));

@@ -2,10 +2,12 @@
 #ifndef IRRADIA_PATH_SURFACE_GLSL
 #define IRRADIA_PATH_SURFACE_GLSL
 #include "lib/bsdf.glsl"
+#include "lib/plane_error.glsl"
 #include "path/scene.glsl"
 
 struct Surface {
     vec3 position;
+    float error; // rays leave the position along the normal by this length, so that they do not hit their own surface
     vec3 geometricNormal; // on the side of the viewer
     vec3 shadingNormal;   // likewise, and never facing away from the viewer
     vec3 baseColor;
@@ -44,7 +46,9 @@ Surface loadSurface(uint primitive, vec2 b, vec3 view) {
     vec3 f0 = m2.rgb;
     float specular = m2.w;
     float b0 = 1.0 - b.x - b.y;
-    vec3 ng = normalize(cross(tri.e1, tri.e2));
+    vec3 ng = cross(tri.e1, tri.e2);
+    float doubleArea = length(ng);
+    ng /= doubleArea;
     vec3 ns = b0 * decodeOctahedral(normals.x) + b.x * decodeOctahedral(normals.y) + b.y * decodeOctahedral(normals.z);
     ns = dot(ns, ns) > 1e-8 ? normalize(ns) : ng;
     if (kTextureMask != 0u) {
@@ -73,6 +77,8 @@ Surface loadSurface(uint primitive, vec2 b, vec3 view) {
 
     Surface s;
     s.position = tri.p0 + b.x * tri.e1 + b.y * tri.e2;
+    vec3 reach = abs(b.x * tri.e1) + abs(b.y * tri.e2);
+    s.error = pointError(ng, tri.p0, reach, s.position) + heightError(tri.e1, tri.e2, doubleArea, reach);
     s.geometricNormal = ng;
     s.shadingNormal = ns;
     s.baseColor = base;

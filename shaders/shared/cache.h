@@ -44,7 +44,7 @@ struct CacheRule {
     vec4 boxHigh; // xyz; w = c of the area spread a(x1 ... xn) > c a0; infinite = never, negative = at the first vertex
     uint endDepth; // number of the vertex at which paths end whatever their spread (0 = the first); kNoDepth = by spread alone
     uint lastDepth;   // at which training paths end in the cache, whatever their spread
-    uint tilesX;      // one training path a tile and frame; 0 = none. Paths from surfaces have the numbers after these
+    uint tilesX;      // one training path a tile and frame; 0 = none. Those of waves that are not seen have the numbers after these
     uint tilesY;
     uint width; // of the picture
     uint height;
@@ -52,13 +52,13 @@ struct CacheRule {
     float residualShare; // of paths that go on past their query, so that the whole is unbiased; 0 = none
     float trainingSpread; // c of the suffixes
     uint deepest;         // number of the last ray of rendering paths, which only meets emission
-    uint pad0;            // to a multiple of 16 bytes
-    uint pad1;
+    uint firstTraining;   // training path from which on paths and vertices are bound, a multiple of kTileRows
+    uint waveTraining;    // that of the first path of a wave that is not seen
 };
 SHARED_CONST uint kNoDepth = 0xffffffffu;
 
-// PathState, one record a path of the wave: a0 (float), square root of the area spread so far (float), training path + 1
-// (0 = none), flags.
+// PathState, one record a path of the wave: a0 (float), square root of the area spread so far (float), training path of those
+// bound + 1 (0 = none), flags.
 SHARED_CONST uint kPathEnded = 1u;    // for rendering: what follows only trains
 SHARED_CONST uint kPathAsked = 2u;    // has had its query, and goes on for the residual
 SHARED_CONST uint kPathUnbiased = 4u; // its suffix is not ended by the spread
@@ -84,8 +84,8 @@ struct CacheState {
     float brightness;      // running mean of frameBrightness
     float frameBrightness; // of the last frame's targets: the square of the mean square root of their luminance
     float largestTarget;   // of the last frame, luminance
-    uint unused0;
-    uint unused1;
+    uint metLight;         // paths that have gathered light themselves, since the start: 1 if any
+    uint unused;
 };
 
 struct RescaleParams {

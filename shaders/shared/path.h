@@ -19,7 +19,13 @@ SHARED_CONST uint kViewEndVertex = 1u;       // number of the vertex that asks t
 SHARED_CONST uint kViewPathLength = 2u;      // vertices, as far as they are for the picture
 SHARED_CONST uint kViewTrainingDensity = 3u; // vertices recorded for training
 
-// A wave is a run of consecutive pixels; path index i of the wave belongs to pixel firstPixel + i.
+// A wave: 2^log2Samples consecutive samples of each of a run of pixels. Path i of the wave is sample
+// sampleIndex + i % 2^log2Samples of pixel firstPixel + i / 2^log2Samples (path/wave.glsl).
+
+// From this number on pixels stand for camera paths that are not seen and only train: number n of them looks through pixel
+// n % (width * height). Their random numbers are their own.
+SHARED_CONST uint kFirstTrainingPixel = 0x40000000u;
+
 struct CameraParams {
     vec4 position; // xyz; w unused
     vec4 forward;  // unit
@@ -31,7 +37,7 @@ struct CameraParams {
     uint pathCount;
     uint sampleIndex;
     uint seed;
-    uint firstSample;    // 1 = radiance starts from zero, 0 = adds to what is there
+    uint log2Samples;
     uint isOrthographic; // 1 = rays are parallel, 0 = they leave one point
 };
 
@@ -60,8 +66,8 @@ struct BounceParams {
     uint environmentWidth; // 1 x 1 for a constant
     uint environmentHeight;
     float environmentProbability; // of sampling the environment rather than the emissive triangles
-    float rayEpsilon;             // length by which origins leave their surface
     uint queueParity;             // depth & 1: which counter of the RayQueue pair is current
+    uint log2Samples;             // of a pixel in the wave
     uint pad0;                    // to a multiple of 16 bytes
     uint pad1;
 };
@@ -77,20 +83,24 @@ SHARED_CONST uint kTraceArguments = 0u; // offsets in uints
 SHARED_CONST uint kItemArguments = 4u;
 SHARED_CONST uint kDispatchArguments = 8u; // size in uints
 
-// The film, per pixel: FilmPixel in floats. Welford's running mean and sum of squared deviations over frames.
+// The film, per pixel: FilmPixel in floats. Welford's running mean and sum of squared deviations over frames. A pass binds the
+// film and the layers of its wave's pixels alone.
 SHARED_CONST uint kFilmVectors = 2u;    // vec4: mean rgb, frames; M2 rgb, unused
 SHARED_CONST uint kSurfaceVectors = 3u; // vec4 sums: albedo rgb, hits; normal xyz, z; position xyz, unused
 
 struct FilmParams {
-    uint firstPixel;
-    uint pathCount;
+    uint pixels;
+    uint log2Samples;   // of a pixel in the wave
+    uint part;          // mask of kFirstSamples and kLastSamples
     uint frame;         // frames in the film before this one
     float sampleWeight; // 1 / samples per frame
 };
+SHARED_CONST uint kFirstSamples = 1u; // the wave holds a frame's first samples of its pixels
+SHARED_CONST uint kLastSamples = 2u;  // and its last: then the frame is added to the film
 
 struct SurfaceParams {
-    uint firstPixel;
-    uint pathCount;
+    uint pixels;
+    uint log2Samples; // of a pixel in the wave
     uint pad0;
     uint pad1;
     vec4 cameraPosition;

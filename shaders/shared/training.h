@@ -53,7 +53,7 @@ struct GatherParams {
     uint inputs; // of a record
     uint targets;
     float limit; // of a record's values
-    uint unused;
+    uint first;  // row of the part
     uvec2 batchInputs; // addresses, where the kernel stores by them
     uvec2 batchTargets;
 };

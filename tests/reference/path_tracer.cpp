@@ -7,13 +7,6 @@ namespace {
 
 constexpr double kPortalShare = 0.25; // more would let the weights of paths by the BSDF alone grow
 
-double largestCoordinate(const Scene& scene) {
-    double largest = 1e-30;
-    for (const Vertex& v : scene.vertices)
-        largest = std::fmax(largest, maxComponent(glm::abs(Vec3(v.position))));
-    return largest;
-}
-
 // Weight of light found by BSDF sampling. pdfBsdf = 0 only for camera rays, which have no other way to find
 // it.
 double weightOfBsdfSample(LightStrategy strategy, bool isCameraRay, double pdfBsdf, double pdfLight) {
@@ -30,11 +23,10 @@ double weightOfLightSample(LightStrategy strategy, double pdfLight, double pdfBs
 PathTracer::PathTracer(const Scene& scene)
     : scene_(&scene)
     , bvh_(triangleShapes(scene))
-    , lights_(scene)
-    , offset_(1e-9 * largestCoordinate(scene)) {}
+    , lights_(scene) {}
 
 Vec3 PathTracer::leave(const SurfacePoint& point) const {
-    return point.position + offset_ * point.geometricNormal;
+    return point.position + point.offset * point.geometricNormal;
 }
 
 Vec3 PathTracer::incident(const Ray& ray, const Walk& walk, const Estimator& estimator) const {

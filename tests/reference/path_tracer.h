@@ -55,7 +55,6 @@ private:
     const Scene* scene_;
     Bvh bvh_;
     Lights lights_;
-    double offset_; // of ray origins from surfaces, a billionth of the scene's largest coordinate
 };
 
 } // namespace irradia::reference

@@ -95,7 +95,12 @@ SurfacePoint surfaceAt(const Scene& scene, const TriangleShape& shape, const Ray
     if (cosine < kMinViewCosine) normal = glm::normalize(normal + (kMinViewCosine - cosine) * toViewer);
 
     const Frame frame(normal);
-    return {shape.p0 + hit.u * shape.e1 + hit.v * shape.e2, geometric, frame, frame.toLocal(toViewer),
+    const double extent = maxComponent(glm::abs(shape.p0) + glm::abs(shape.e1) + glm::abs(shape.e2));
+    return {shape.p0 + hit.u * shape.e1 + hit.v * shape.e2,
+            geometric,
+            0x1p-44 * extent, // 512 roundings: slivers err more than others
+            frame,
+            frame.toLocal(toViewer),
             Bsdf(bsdfParameters(scene, material, at))};
 }
 

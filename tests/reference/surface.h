@@ -10,6 +10,7 @@ namespace irradia::reference {
 struct SurfacePoint {
     Vec3 position{0.0};
     Vec3 geometricNormal{0.0}; // on the side of V
+    double offset = 0.0;       // by which rays that leave must begin off the plane: roundings of its corners
     Frame shading{Vec3(0, 0, 1)};
     Vec3 view{0.0}; // V in the shading frame; z >= about 0.01
     Bsdf bsdf{BsdfParameters{}};

@@ -31,5 +31,5 @@ void main() {
     rule.height = harness.height;
     rule.tilesX = harness.tilesX;
     rule.tilesY = harness.tilesY;
-    storeRecord(results, i, uvec4(trainingPathOf(i % pixels), 0u, 0u, 0u));
+    storeRecord(results, i, uvec4(trainingPathOf(0u, i % pixels), 0u, 0u, 0u));
 }

@@ -57,6 +57,10 @@ struct CacheTilesParams {
     uint seed;
 };
 
+struct PlaneErrorParams {
+    uint count;
+};
+
 // Follows the CacheRule.
 struct CacheWalkParams {
     uint paths;

@@ -26,7 +26,7 @@ double meanLuminance(const FilmImage& film) {
 }
 
 GpuScene uploaded(Device& device, const Scene& scene) {
-    return uploadScene(device, packScene(scene), buildBvh(scene), sceneBounds(scene));
+    return uploadScene(device, packScene(scene), buildBvh(scene));
 }
 
 CachedScene::CachedScene(Device& device, const Scene& scene, const NrcOptions& options,

@@ -4,7 +4,7 @@ namespace irradia::test {
 
 GpuRenderer::GpuRenderer(Device& device, const Scene& scene)
     : device_(device)
-    , scene_(uploadScene(device, packScene(scene), buildBvh(scene), sceneBounds(scene))) {}
+    , scene_(uploadScene(device, packScene(scene), buildBvh(scene))) {}
 
 FilmImage GpuRenderer::render(const Camera& camera, const PathTracerOptions& options, uint32_t frames,
                               uint32_t firstFrame) {

@@ -20,7 +20,7 @@ struct Push {
 } // namespace
 
 LightHarness::LightHarness(const Scene& scene, const KernelSource& source, std::vector<Specialisation> faults)
-    : scene_(uploadScene(validatedDevice(), packScene(scene), Bvh{}, sceneBounds(scene)))
+    : scene_(uploadScene(validatedDevice(), packScene(scene), Bvh{}))
     , kernel_(source, fitted(scene_.needs, std::move(faults))) {}
 
 std::vector<glm::uvec4> LightHarness::run(const gpu::LightHarnessParams& harness, uint32_t seed,

@@ -64,13 +64,17 @@ FilmImage OracleCache::render(const GpuScene& scene, const Camera& camera, uint3
         tracer.beginFrame();
         tracer.graph().fill(counters_, 0);
         tracer.graph().fill(trainingPaths_, 0);
-        for (const Wave& wave : tracer.waves()) {
-            tracer.traceWave(camera, wave, frame, 0, &paths);
+        for (Waves waves = tracer.waves(); const auto wave = waves.next();) {
+            tracer.traceWave(camera, *wave, frame, &paths);
             answer(tracer);
-            tracer.addToFilm(wave);
+            tracer.addToFilm(*wave);
         }
-        for (const Wave& wave : tracer.surfaceWaves(surfacePaths_))
-            tracer.traceSurfaceWave(wave, frame, kSurfaceDistance, paths);
+        CachePaths fromSurfaces = paths;
+        fromSurfaces.rule.waveTraining = rule_.tilesX * rule_.tilesY;
+        for (Waves waves = tracer.surfaceWaves(surfacePaths_); const auto wave = waves.next();) {
+            tracer.traceSurfaceWave(*wave, frame, kSurfaceDistance, fromSurfaces);
+            fromSurfaces.rule.waveTraining += wave->paths();
+        }
         propagate(tracer.graph());
         tracer.graph().execute();
         tracer.endFrame();

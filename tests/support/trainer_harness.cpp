@@ -7,6 +7,7 @@
 #include "tests/support/kernel_harness.h"
 #include "tests/support/network_rows.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/whole_model.h"
 #include <cmath>
 #include <cstring>
 #include <fmt/format.h>
@@ -57,10 +58,9 @@ reference::FeatureGrid smallGrid() {
 }
 
 ModelConfig modelOf(const std::string& encoding, const std::string& loss, const std::string& optimizer) {
-    return parseModelConfig(fmt::format(R"({{"encoding": {},
-        "network": {{"otype": "FullyFusedMLP", "n_neurons": 16, "n_hidden_layers": 2}},
-        "loss": {}, "optimizer": {}}})",
-                                        encoding, loss, optimizer),
+    return parseModelConfig(wholeModel(fmt::format(R"({{"encoding": {},
+        "network": {{"n_neurons": 16, "n_hidden_layers": 2}}, "loss": {}, "optimizer": {}}})",
+                                                   encoding, loss, optimizer)),
                             "small model");
 }
 

@@ -1,0 +1,32 @@
+// The buffers of a wavefront path tracer: one list of names and bytes, that the plan and the allocation are
+// made from.
+#pragma once
+
+#include "engine/gpu/buffer.h"
+#include "engine/path/path_tracer_options.h"
+#include "engine/path/wave.h"
+#include <array>
+
+namespace irradia {
+
+struct PathBuffers {
+    // Allocates them.
+    PathBuffers(Device& device, const PathTracerOptions& options);
+
+    // Sizes of what the constructor allocates, in its order.
+    static std::vector<Device::PlannedBuffer> planned(bool isCpu, const PathTracerOptions& options);
+
+    // Paths in flight that are wanted, and those that there are at most.
+    static uint32_t wantedWave(bool isCpu, const PathTracerOptions& options);
+    static uint32_t largestWave(bool isCpu, const PathTracerOptions& options);
+
+    std::array<Buffer, 2> rays; // RayQueue: current and next
+    Buffer hits, shadowRays, visibility;
+    Buffer pathStates; // where there is a cache
+    Buffer radiance;   // vec4 per path of the wave
+    Buffer sampleSums; // vec4 per pixel of the wave: of the frame's samples in waves before
+    Buffer counters, arguments;
+    Buffer film, surfaces; // per pixel of the picture
+};
+
+} // namespace irradia

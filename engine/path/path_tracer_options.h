@@ -1,0 +1,24 @@
+// What a wavefront path tracer is made for.
+#pragma once
+
+#include "shared/path.h"
+#include <cstdint>
+
+namespace irradia {
+
+struct PathTracerOptions {
+    uint32_t width = 0;
+    uint32_t height = 0;
+    uint32_t maxBounces = 16;     // a path has at most maxBounces + 2 edges, light connection included
+    uint32_t samplesPerFrame = 1; // samples of a pixel that make one frame
+    uint32_t seed = 1;
+    bool surfaces = false;             // gather the AOV layers
+    uint32_t waveSize = 0;             // paths in flight; 0 = the device class's default. Changes no result.
+    bool cached = false;               // traceWave is given CachePaths
+    uint32_t trainingPaths = 0;        // of a frame at most, beside those of pixels
+    uint32_t view = gpu::kViewPicture; // what the film shows; all else needs a cache
+
+    uint32_t pixels() const { return width * height; }
+};
+
+} // namespace irradia

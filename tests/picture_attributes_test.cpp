@@ -67,6 +67,14 @@ TEST_CASE("an EXR says its primaries and the camera as OpenEXR's standard attrib
 
     CHECK(readExr(folder / "a.exr").matrices == image.matrices);
 
+    Camera parallel = sideways();
+    parallel.halfHeight = 3; // 6 high and 12 wide at any distance
+    for (const float x : {-3.0f, -9.0f}) {
+        const glm::mat4 flat = worldToNdc(parallel, 2.0f);
+        CHECK(glm::length(flat * glm::vec4(x, 5, 9, 1) - glm::vec4(0, 0, 1 - x, 1)) < 1e-5f);
+        CHECK(glm::length(flat * glm::vec4(x, -1, -3, 1) - glm::vec4(1, 1, 1 - x, 1)) < 1e-5f);
+    }
+
     const glm::mat4 shifted = worldToCamera(sideways(), {100, 200, 300});
     CHECK(shifted * glm::vec4(101, 202, 303, 1) == glm::vec4(0, 0, 0, 1));
 }

@@ -22,10 +22,16 @@ glm::mat4 worldToCamera(const Camera& camera, const glm::dvec3& origin) {
 }
 
 glm::mat4 worldToNdc(const Camera& camera, float aspect, const glm::dvec3& origin) {
-    const double height = 2.0 * std::tan(0.5 * double(camera.verticalFov)); // of the picture, at depth 1
-    const glm::dmat4 rows(glm::dvec4(1.0 / (height * double(aspect)), 0.0, 0.5, 0.0),
-                          glm::dvec4(0.0, -1.0 / height, 0.5, 0.0), glm::dvec4(0.0, 0.0, 0.0, 1.0),
-                          glm::dvec4(0.0, 0.0, 1.0, 0.0));
+    const bool parallel = camera.isOrthographic();
+    const double height = // of the picture; of a pinhole's at depth 1
+        2.0 * (parallel ? double(camera.halfHeight) : std::tan(0.5 * double(camera.verticalFov)));
+    const double x = 1.0 / (height * double(aspect)), y = -1.0 / height;
+    const glm::dvec4 depth(0.0, 0.0, 1.0, 0.0), one(0.0, 0.0, 0.0, 1.0);
+    const glm::dmat4 rows = parallel
+                                ? glm::dmat4(glm::dvec4(x, 0.0, 0.0, 0.5), glm::dvec4(0.0, y, 0.0, 0.5), //
+                                             depth, one)
+                                : glm::dmat4(glm::dvec4(x, 0.0, 0.5, 0.0), glm::dvec4(0.0, y, 0.5, 0.0), //
+                                             one, depth);
     return glm::transpose(rows) * exactWorldToCamera(camera, origin);
 }
 

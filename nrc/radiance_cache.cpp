@@ -10,8 +10,7 @@ namespace irradia {
 namespace {
 
 constexpr uint64_t kInputBytes = gpu::kCacheInputQuads * 16;
-constexpr uint64_t kPathBytes = gpu::kTrainingPathVectors * 16;
-constexpr uint64_t kVertexBytes = gpu::kMaxTrainingVertices * gpu::kTrainingVertexVectors * 16; // of a path
+constexpr uint64_t kPathBytes = gpu::kTrainingPathBytes, kVertexBytes = gpu::kVertexBytes; // of products
 
 // Training paths whose vertices become records together: their range fits any device's binding, and one
 // dispatch takes all of their vertices.
@@ -58,7 +57,7 @@ struct RadianceCache::State {
         , queryWeights(d, "query weights", uint64_t(queryRows) * 16)
         , predictions(d, "predictions", uint64_t(answeredRows(o)) * 16)
         , counters(d, "cache counters", gpu::kCacheCounters * 4)
-        , trainingPaths(d, "training paths", uint64_t(pathRows) * kPathBytes)
+        , trainingPaths(d, "training paths", pathRows * kPathBytes)
         , trainingVertices(d, "training vertices", pathRows * kVertexBytes)
         , trainingQueries(d, "training queries", pathRows * kInputBytes)
         , pathSums(d, "training path sums", uint64_t(pathRows) * 16)

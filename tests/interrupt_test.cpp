@@ -89,7 +89,8 @@ TEST_CASE("a second signal ends a render at once") {
     // A frame of minutes.
     RunningProgram program(render(folder, {"--method", "pt", "--spp", "256"}, "1024x1024"), folder / "log");
     REQUIRE(program.waitForLog("memory:"));
-    std::this_thread::sleep_for(std::chrono::seconds(3)); // the frame has begun: before it one signal is enough
+    std::this_thread::sleep_for(
+        std::chrono::seconds(3)); // the frame has begun: before it one signal is enough
     program.send(SIGINT);
     std::this_thread::sleep_for(std::chrono::milliseconds(300)); // so that it is a second request
     program.send(SIGTERM);

@@ -169,7 +169,8 @@ TEST_CASE("render takes the cache unless told otherwise, and says so first") {
     CHECK(std::get<1>(render(" --method cache-view --preset fast --warmup 3")) == "cache-view");
     CHECK(render(" --max-bounces 0") ==
           std::tuple("render: method pt, warm-up 0, frames 0-1, size 8x6", "pt", "0 of 0"));
-    CHECK(std::get<1>(render(" --max-bounces 0 --preset fast --warmup 1")) == "nrc"); // asked for by its options
+    CHECK(std::get<1>(render(" --max-bounces 0 --preset fast --warmup 1")) ==
+          "nrc"); // asked for by its options
     CHECK(std::get<1>(render(" --method pt --max-bounces 1")) == "pt");
 }
 

@@ -15,7 +15,7 @@ struct PathTracerOptions {
     bool surfaces = false;             // gather the AOV layers
     uint32_t waveSize = 0;             // paths in flight; 0 = the device class's default. Changes no result.
     bool cached = false;               // traceWave is given CachePaths
-    uint32_t trainingPaths = 0;        // of a frame at most, beside those of pixels
+    uint32_t trainingPaths = 0;        // of one kind in a frame at most, beside those of pixels
     uint32_t view = gpu::kViewPicture; // what the film shows; all else needs a cache
 
     uint32_t pixels() const { return width * height; }

@@ -43,16 +43,16 @@ bool trains(const CachePaths* cache) {
     return cache && cache->rule.tilesX > 0;
 }
 
-// Calls visit(const glm::vec4*) with the vectors of each pixel in turn; reads a part of them at a time.
+// Calls visit(const glm::vec4*) with the vectors of each pixel in turn; reads some of them at a time.
 template <uint32_t vectors, typename Visit>
-void forEachPixel(Device& device, const Buffer& buffer, size_t pixels, const Visit& visit) {
-    constexpr size_t kTogether = 1u << 18;
-    for (size_t first = 0; first < pixels; first += kTogether) {
-        const size_t count = std::min(kTogether, pixels - first);
-        const auto part =
-            download<glm::vec4>(device, buffer, count * vectors, first * vectors * sizeof(glm::vec4));
-        for (size_t i = 0; i < count; ++i) visit(&part[i * vectors]);
-    }
+void forEachPixel(Device& device, const std::vector<Buffer>& parts, const Visit& visit) {
+    constexpr uint64_t kBytes = vectors * sizeof(glm::vec4), kTogether = kBytes << 18;
+    for (const Buffer& part : parts)
+        for (uint64_t offset = 0; offset < part.bytes(); offset += kTogether) {
+            const uint64_t bytes = std::min(kTogether, part.bytes() - offset);
+            const auto values = download<glm::vec4>(device, part, bytes / sizeof(glm::vec4), offset);
+            for (size_t i = 0; i < values.size(); i += vectors) visit(&values[i]);
+        }
 }
 
 // scatter's, where there is a cache.
@@ -110,9 +110,8 @@ Waves WavefrontPathTracer::waves() const {
 }
 
 uint32_t WavefrontPathTracer::trainingWave() const {
-    constexpr uint32_t kVertexBytes = gpu::kMaxTrainingVertices * gpu::kTrainingVertexVectors * 16;
     // The range that is bound begins at a whole tile of rows.
-    return std::min(waveSize_, device_.limits().maxStorageBufferRange / kVertexBytes - gpu::kTileRows);
+    return std::min(waveSize_, device_.limits().maxStorageBufferRange / gpu::kVertexBytes - gpu::kTileRows);
 }
 
 Waves WavefrontPathTracer::trainingWaves(uint32_t paths) const {
@@ -124,7 +123,6 @@ Waves WavefrontPathTracer::surfaceWaves(uint32_t paths) const {
 }
 
 void WavefrontPathTracer::addToFilm(const Wave& wave) {
-    constexpr uint64_t kBytes = gpu::kFilmVectors * 16;
     // Of a frame's samples of a pixel the first alone may train.
     const uint32_t samples = options_.view == gpu::kViewTrainingDensity ? 1 : options_.samplesPerFrame;
     const uint32_t part =
@@ -134,7 +132,7 @@ void WavefrontPathTracer::addToFilm(const Wave& wave) {
     graph_.pass(kernels_.updateFilm)
         .read(buffers_.radiance)
         .readWrite(buffers_.sampleSums)
-        .readWrite({buffers_.film, wave.firstPixel * kBytes, wave.pixels * kBytes})
+        .readWrite(buffers_.ofPixels(buffers_.film, gpu::kFilmVectors, wave.firstPixel, wave.pixels))
         .push(film)
         .dispatch(wave.pixels);
     graph_.cut();
@@ -145,7 +143,7 @@ void WavefrontPathTracer::endFrame() {
 }
 
 void WavefrontPathTracer::forgetFilm() {
-    if (options_.surfaces) graph_.fill(buffers_.surfaces, 0);
+    for (const Buffer& part : buffers_.surfaces) graph_.fill(part, 0);
     frames_ = 0;
 }
 
@@ -307,13 +305,12 @@ void WavefrontPathTracer::addDirectLight(const CachePaths* cache) {
 }
 
 void WavefrontPathTracer::recordSurfaces(const Camera& camera, const Wave& wave) {
-    constexpr uint64_t kBytes = gpu::kSurfaceVectors * 16;
     const gpu::SurfaceParams params{
         wave.pixels, wave.log2Samples, 0, 0, glm::vec4(camera.position, 0), glm::vec4(camera.forward, 0)};
     Pass pass = graph_.pass(kernels_.recordSurfaces);
     pass.read(buffers_.rays[0])
         .read(buffers_.hits)
-        .readWrite({buffers_.surfaces, wave.firstPixel * kBytes, wave.pixels * kBytes});
+        .readWrite(buffers_.ofPixels(buffers_.surfaces, gpu::kSurfaceVectors, wave.firstPixel, wave.pixels));
     readSurfaces(pass, scene_).push(params).dispatch(wave.pixels);
 }
 
@@ -333,12 +330,12 @@ FilmImage WavefrontPathTracer::readFilm() const {
     image.samplesPerFrame = options_.samplesPerFrame;
     image.reserve(pixels, frames_ >= 2, options_.surfaces);
     const float n = static_cast<float>(frames_);
-    forEachPixel<gpu::kFilmVectors>(device_, buffers_.film, pixels, [&](const glm::vec4* p) {
+    forEachPixel<gpu::kFilmVectors>(device_, buffers_.film, [&](const glm::vec4* p) {
         image.mean.emplace_back(p[0]);
         if (frames_ >= 2) image.variance.push_back(glm::vec3(p[1]) / (n * (n - 1.0f)));
     });
     if (!options_.surfaces) return image;
-    forEachPixel<gpu::kSurfaceVectors>(device_, buffers_.surfaces, pixels, [&](const glm::vec4* s) {
+    forEachPixel<gpu::kSurfaceVectors>(device_, buffers_.surfaces, [&](const glm::vec4* s) {
         const float hits = std::max(s[0].w, 1.0f);
         image.albedo.push_back(glm::vec3(s[0]) / hits);
         image.normal.push_back(glm::vec3(s[1]) / hits);

@@ -45,8 +45,9 @@ std::vector<std::string> mendTexels(std::vector<glm::vec3>& texels, const std::s
         for (int c = 0; c < 3; ++c) {
             isUnknown = isUnknown || std::isnan(found[c]);
             isInfinite = isInfinite || (std::isinf(found[c]) && found[c] > 0);
-            texel[c] = std::isnan(found[c]) ? 0.0f : std::clamp(found[c], 0.0f, largest);
+            texel[c] = std::clamp(found[c], 0.0f, largest);
         }
+        if (isUnknown) texel = glm::vec3(0.0f);
         infinite += isInfinite;
         unknown += isUnknown;
     }

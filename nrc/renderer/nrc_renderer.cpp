@@ -8,8 +8,7 @@
 namespace irradia {
 namespace {
 
-constexpr uint64_t kPathBytes = gpu::kTrainingPathVectors * 16;
-constexpr uint64_t kVertexBytes = gpu::kMaxTrainingVertices * gpu::kTrainingVertexVectors * 16; // of a path
+constexpr uint64_t kPathBytes = gpu::kTrainingPathBytes, kVertexBytes = gpu::kVertexBytes; // of products
 
 // Of a frame, whatever the size of the picture: more teach no more, and a binding holds them.
 constexpr uint32_t kMostRecords = 1u << 20;
@@ -98,6 +97,7 @@ void NrcRenderer::renderFrame(const Camera& camera, uint32_t index) {
     FrameGraph& graph = tracer_.graph();
     tracer_.beginFrame();
     cache_.begin(graph);
+    if (!isShown()) ++framesWithoutCache_;
     for (Waves waves = tracer_.waves(); const auto wave = waves.next();) {
         const CachePaths paths = cachePaths(*wave);
         cache_.beginQueries(graph);
@@ -138,6 +138,7 @@ void NrcRenderer::learn(const Camera& camera, uint32_t index) {
 }
 
 void NrcRenderer::forgetFilm() {
+    framesWithoutCache_ = 0;
     tracer_.forgetFilm();
 }
 
@@ -197,8 +198,8 @@ CachePaths NrcRenderer::bound(gpu::CacheRule rule, const RowRange& training) con
             rule};
 }
 
-// A cache that knows nothing is not shown (of light that no path has found there is nothing to know), unless it
-// was asked for at a given vertex, or has its error made up for by paths that go on.
+// A cache that knows nothing is not shown (of light that no path has found there is nothing to know), unless
+// it was asked for at a given vertex, or has its error made up for by paths that go on.
 bool NrcRenderer::isShown() const {
     const NrcConfig& config = options_.config;
     const bool knows = adaptation_.hasLearned() && counts_.state.metLight != 0;

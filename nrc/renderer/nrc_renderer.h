@@ -38,6 +38,8 @@ public:
     RadianceCache& cache() { return cache_; }
     const CacheCounts& counts() const { return counts_; } // of the last frame
     const Adaptation& adaptation() const { return adaptation_; }
+    // Frames of the film whose paths went on as the path tracer's, since the cache knew nothing.
+    uint32_t framesWithoutCache() const { return framesWithoutCache_; }
 
 private:
     // Training paths of a frame, numbered in this order: one a tile of the picture, those through the camera
@@ -68,6 +70,7 @@ private:
     TrainingPaths training_;      // of this frame
     bool learns_ = true;
     bool isWarmingUp_ = false;
+    uint32_t framesWithoutCache_ = 0;
 };
 
 } // namespace irradia

@@ -44,13 +44,13 @@ void requireRoomForPicture(const Device& device, const NrcOptions& options, bool
         (pictureBytes(device, scaled(options, middle), hasCache) <= left ? fits : tooLarge) = middle;
     }
     const PathTracerOptions largest = scaled(options, fits).paths;
+    const bool someFit = pictureBytes(device, scaled(options, fits), hasCache) <= left;
     constexpr double kMebibyte = 1024.0 * 1024.0;
-    fail(ExitCode::OutOfMemory,
-         "a picture of {}x{} pixels takes {:.0f} MiB, and {} has {:.0f} MiB left; the largest of its shape "
-         "that "
-         "fits is {}x{}",
+    fail(ExitCode::OutOfMemory, "a picture of {}x{} pixels takes {:.0f} MiB, and {} has {:.0f} MiB left; {}",
          options.paths.width, options.paths.height, static_cast<double>(bytes) / kMebibyte,
-         device.description().name, static_cast<double>(left) / kMebibyte, largest.width, largest.height);
+         device.description().name, static_cast<double>(left) / kMebibyte,
+         someFit ? fmt::format("the largest of its shape that fits is {}x{}", largest.width, largest.height)
+                 : "none is small enough");
 }
 
 } // namespace irradia

@@ -22,7 +22,8 @@ void benchFrame(const BenchFrameOptions& options) {
     catchInterrupts();
     RenderSession session(options.request);
     requireApart({{"--json", options.json}}, session.inputs());
-    // Frames of a warm-up ask the cache before it knows anything, as all do later. The first compile the kernels.
+    // Frames of a warm-up ask the cache before it knows anything, as all do later. The first compile the
+    // kernels.
     for (uint32_t i = 0; i < 2; ++i) session.renderWarmupFrame(i);
     session.profiler().reset();
     stopIfInterrupted();

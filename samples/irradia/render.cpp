@@ -25,7 +25,8 @@ struct RenderOptions {
 constexpr uint32_t kCacheWarmup = 64;
 constexpr uint32_t kMostWarmup = 1'000'000;
 
-// What is indirect, the cache is asked for; without it there is nothing to ask, unless it is asked for by name.
+// What is indirect, the cache is asked for; without it there is nothing to ask, unless it is asked for by
+// name.
 std::string chooseMethod(const RenderRequest& request, const CLI::App& command) {
     if (!request.method.empty()) return request.method;
     return request.maxBounces == 0 && optionOfCaches(command).empty() ? "pt" : "nrc";
@@ -37,7 +38,8 @@ FramePlan planFrames(const RenderOptions& options) {
         plan.seconds = options.seconds;
         if (options.frames.empty()) plan.end = UINT32_MAX;
     }
-    plan.warmup = options.warmup.value_or(options.request.method == "pt" ? 0 : kCacheWarmup);
+    plan.warmup = options.warmup.value_or(methodHasCache(options.request.method) ? kCacheWarmup : 0);
+    requireOwnSamples(plan, options.request.samplesPerFrame);
     return plan;
 }
 
@@ -45,7 +47,7 @@ FramePlan planFrames(const RenderOptions& options) {
 std::string headingOf(const RenderOptions& options, const FramePlan& plan) {
     const RenderRequest& request = options.request;
     std::string text = "render: method " + request.method;
-    if (request.method != "pt") text += fmt::format(", preset {}", request.preset);
+    if (methodHasCache(request.method)) text += fmt::format(", preset {}", request.preset);
     text += fmt::format(", warm-up {}", plan.warmup);
     if (plan.end != UINT32_MAX) text += fmt::format(", frames {}-{}", plan.first, plan.end);
     if (std::isfinite(plan.seconds)) text += fmt::format(", time {:g} s", plan.seconds);

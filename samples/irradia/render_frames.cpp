@@ -54,7 +54,7 @@ uint32_t warmUp(RenderSession& session, const FramePlan& plan, const std::string
 }
 
 FrameNote noteOf(RenderSession& session, uint32_t frames, double seconds) {
-    const FilmImage film = session.readFilm();
+    const FilmImage film = session.tracer().readFilm(); // not as a view paints it
     FrameNote note{frames, seconds, 0.0, std::nullopt, 0};
     for (const glm::vec3& pixel : film.mean) note.mean += luminance(pixel);
     note.mean /= static_cast<double>(film.mean.size());
@@ -86,6 +86,14 @@ FramePlan parseFrames(const std::string& text) {
     return plan;
 }
 
+void requireOwnSamples(const FramePlan& plan, uint32_t samplesPerFrame) {
+    constexpr uint64_t kSamples = uint64_t{1} << 32;
+    const uint64_t end = plan.end == UINT32_MAX ? plan.first + 1ull : plan.end;
+    if ((end + plan.warmup) * samplesPerFrame > kSamples)
+        fail(ExitCode::Usage, "--frames up to {} with --spp {}: a pixel has {} samples of its own, no more",
+             end, samplesPerFrame, kSamples);
+}
+
 RenderedFrames renderFrames(RenderSession& session, const FramePlan& plan, const std::string& progress,
                             bool withHistory) {
     const Stopwatch clock;
@@ -103,6 +111,9 @@ RenderedFrames renderFrames(RenderSession& session, const FramePlan& plan, const
     }
     meter.finish();
     run.seconds = clock.seconds();
+    if (session.nrc() && session.nrc()->framesWithoutCache() > 0)
+        logLine("{} of {} frames were path traced: the cache had not learned yet",
+                session.nrc()->framesWithoutCache(), run.end - run.first);
     if (run.endedBy == "time" && plan.end != UINT32_MAX)
         logLine("time: {} of {} frames in the {:g} s", run.end - run.first, plan.end - plan.first,
                 plan.seconds);

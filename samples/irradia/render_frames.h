@@ -37,6 +37,9 @@ struct RenderedFrames {
     std::vector<FrameNote> history; // after frames 1, 2, 4, 8, ...
 };
 
+// Throws Error(Usage) where frames would repeat the samples of others.
+void requireOwnSamples(const FramePlan& plan, uint32_t samplesPerFrame);
+
 // Throws Error(Interrupted) before the first frame of the film. The history costs a read of the film each.
 RenderedFrames renderFrames(RenderSession& session, const FramePlan& plan, const std::string& progress,
                             bool withHistory);

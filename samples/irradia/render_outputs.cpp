@@ -4,6 +4,7 @@
 #include "engine/log.h"
 #include "engine/scene/camera_matrices.h"
 #include "frame_stats.h"
+#include "methods.h"
 #include "samples/support/numbers.h"
 #include "samples/support/standard_streams.h"
 #include <algorithm>
@@ -105,7 +106,7 @@ nlohmann::ordered_json optionsOf(const RenderRequest& request, const FramePlan& 
                                    {"records", request.records},
                                    {"exposure", display.exposure},
                                    {"tonemap", kToneMapNames[static_cast<size_t>(display.toneMap)]}};
-    if (request.method != "pt") {
+    if (methodHasCache(request.method)) {
         options["preset"] = request.preset;
         options["network"] = request.network;
     }
@@ -126,6 +127,7 @@ void writeStats(const std::string& file, RenderSession& session, const FramePlan
                 const RenderedFrames& run, const DisplayOptions& display) {
     nlohmann::ordered_json stats = frameStats(session);
     stats["warmup_frames"] = run.warmup;
+    stats["frames_without_cache"] = session.nrc() ? session.nrc()->framesWithoutCache() : 0;
     stats["seconds"] = run.seconds;
     stats["ended_by"] = run.endedBy;
     stats["history"] = historyOf(run);

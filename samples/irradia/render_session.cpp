@@ -70,6 +70,11 @@ void reportScene(const RenderRequest& request, const Scene& scene,
     for (const std::string& warning : warnings) logLine("warning: {}", warning);
 }
 
+// What is no name of a preset or a camera.
+std::string fileOnly(const std::string& text) {
+    return text.ends_with(".json") ? text : "";
+}
+
 } // namespace
 
 void addRequestOptions(CLI::App& command, RenderRequest& request) {
@@ -131,9 +136,9 @@ void addRequestOptions(CLI::App& command, RenderRequest& request) {
 
 std::vector<NamedFile> inputFiles(const RenderRequest& request) {
     return {{"the scene", request.scene},
-            {"the camera", request.camera},
+            {"the camera", fileOnly(request.camera)},
             {"the environment", parsePictureName(request.environment).file.string()},
-            {"the preset", request.preset},
+            {"the preset", fileOnly(request.preset)},
             {"the network", request.network},
             {"the list of changes", request.changes},
             {"the reference", request.reference}};

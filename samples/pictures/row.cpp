@@ -1,4 +1,3 @@
-#include "engine/image/display.h"
 #include "samples/pictures/pictures.h"
 
 #include "engine/image/display.h"
@@ -15,8 +14,8 @@ constexpr uint8_t kWhite = 255;
 void place(const Rgba8Image& picture, int scale, int left, Rgba8Image& row) {
     for (int y = 0; y < row.height; ++y)
         for (int x = 0; x < picture.width * scale; ++x) {
-            const auto from = picture.pixels.begin() + 4 * (y / scale * picture.width + x / scale);
-            std::copy_n(from, 4, row.pixels.begin() + 4 * (y * row.width + left + x));
+            const auto from = picture.pixels.begin() + 4 * (ptrdiff_t{y / scale} * picture.width + x / scale);
+            std::copy_n(from, 4, row.pixels.begin() + 4 * (ptrdiff_t{y} * row.width + left + x));
         }
 }
 

@@ -73,6 +73,8 @@ SHARED_CONST uint kMaxTrainingVertices = 8u; // recorded; light met later is add
 // TrainingVertex, vertex v of path t at t kMaxTrainingVertices + v: kCacheInputQuads vec4 of inputs, vec4 (gathered rgb, 0),
 // vec4 (throughput rgb to the next recorded vertex or the end in the cache, 0).
 SHARED_CONST uint kTrainingVertexVectors = kCacheInputQuads + 2u;
+SHARED_CONST uint kTrainingPathBytes = kTrainingPathVectors * 16u; // of a path
+SHARED_CONST uint kVertexBytes = kMaxTrainingVertices * kTrainingVertexVectors * 16u; // of a path's vertices
 SHARED_CONST uint kGathered = kCacheInputQuads;
 SHARED_CONST uint kThroughput = kCacheInputQuads + 1u;
 

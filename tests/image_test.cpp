@@ -253,6 +253,8 @@ TEST_CASE("targets that cannot be replaced are refused by name") {
     expectError(ExitCode::Io, "nowhere", [&] { writeFileAtomically(folder / "nowhere/a.bin", bytes); });
     expectError(ExitCode::Io, "is a folder", [&] { writeFileAtomically(folder / "", bytes); });
     expectError(ExitCode::Io, "not a regular file", [&] { writeFileAtomically("/dev/null", bytes); });
+    // What is open elsewhere would be replaced under its writer, also where it is a regular file.
+    expectError(ExitCode::Io, "not a regular file", [&] { writeFileAtomically("/dev/fd/0", bytes); });
     CHECK(std::filesystem::is_character_file("/dev/null"));
     expectError(ExitCode::Io, "nowhere", [&] { requireWritable(folder / "nowhere/a.bin"); });
     requireWritable(folder / "a.bin");

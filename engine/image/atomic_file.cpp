@@ -10,12 +10,19 @@
 namespace irradia {
 namespace {
 
+// Names such as /dev/stdout stand for what somebody else has open, and may go on writing.
+bool isOpenElsewhere(const std::filesystem::path& file) {
+    const std::string name = std::filesystem::absolute(file).lexically_normal().string();
+    return name.starts_with("/dev/std") || name.starts_with("/dev/fd/") || name.starts_with("/proc/");
+}
+
 // The file a rename must replace: symbolic links are kept, devices and folders refused.
 std::filesystem::path resolveTarget(const std::filesystem::path& file) {
     std::error_code error;
     const auto status = std::filesystem::status(file, error);
     if (std::filesystem::is_directory(status)) fail(ExitCode::Io, "{}: is a folder", file.string());
-    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    if (isOpenElsewhere(file) ||
+        (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)))
         fail(ExitCode::Io, "{}: is not a regular file, so it cannot be replaced", file.string());
     if (!std::filesystem::is_symlink(file, error)) return file;
     const auto resolved = std::filesystem::weakly_canonical(file, error);

@@ -98,8 +98,8 @@ void addFrameOptions(CLI::App& command, RenderOptions& options) {
             "JSON list of changes: {\"frame\": k} and any of \"emissive_strength\": {\"material\", "
             "\"value\"}, \"material\": {\"name\", \"base_color\", \"roughness\", \"metallic\"}, "
             "\"environment\": [r,g,b] or a factor, \"camera\": {...}, \"restart\": true (of the film); "
-            "frames are numbered as by --frames, and warm-up sees the scene of the first; a change beyond "
-            "the last is an error")
+            "frames are numbered as by --frames, and warm-up sees the scene of the first; with --frames a "
+            "change beyond the last is an error")
         ->group("Frames");
 }
 

@@ -162,7 +162,6 @@ TEST_CASE("pictures of a dozen sizes are right by path tracing and with a cache"
             film = renderer.tracer().readFilm();
             CHECK(renderer.counts().records > 0);
             CHECK(renderer.counts().training.steps >= options.config.steps);
-            film = renderer.tracer().readFilm();
             if (c.bounces > 0) {
                 // A frame that asks the cache, right or not: the last wave's paths end in it.
                 renderer.setWarmingUp(true);

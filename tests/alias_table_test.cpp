@@ -1,5 +1,5 @@
 // The alias method's table: the masses that a uniform choice and one coin make of it.
-#include "engine/scene/alias_table.h"
+#include "engine/scene/lights/alias_table.h"
 #include "tests/reference/random.h"
 #include <algorithm>
 #include <catch2/catch_test_macros.hpp>

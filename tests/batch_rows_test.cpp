@@ -1,6 +1,6 @@
 // How a batch is cut into chunks and parts: whole chunks in each part, all rows once, whatever the number of
 // records, and no chunk larger than any device's binding holds.
-#include "nrc/batch_rows.h"
+#include "nrc/learning/batch_rows.h"
 #include "tests/reference/random.h"
 #include <catch2/catch_test_macros.hpp>
 #include <cmath>

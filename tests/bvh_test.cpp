@@ -1,6 +1,6 @@
 // The hierarchy's structure, read back from its records.
 #include "engine/error.h"
-#include "engine/scene/bvh.h"
+#include "engine/scene/bvh/bvh.h"
 #include "tests/support/triangle_scenes.h"
 #include <algorithm>
 #include <bit>

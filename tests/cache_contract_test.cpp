@@ -1,7 +1,7 @@
 // What paths ask the cache and tell it, judged with a cache that knows: in a closed Lambert sphere of albedo
 // 1/2 and emission 1/2 scattered radiance is 1/2 everywhere, and what is seen is 1 wherever paths end. Gaps
 // and double counts of light show here.
-#include "engine/scene/area_table.h"
+#include "engine/scene/lights/area_table.h"
 #include "tests/reference/simple_scenes.h"
 #include "tests/support/gpu_render.h"
 #include "tests/support/oracle_cache.h"

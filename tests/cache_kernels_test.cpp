@@ -1,7 +1,7 @@
 // The cache's kernels that predictions pass through, against their twins in double precision: predictions
 // into radiance, and light back along training paths.
 #include "engine/graph/frame_graph.h"
-#include "kernels/nrc.h"
+#include "kernels/cache.h"
 #include "tests/support/cache_bench.h"
 #include <algorithm>
 #include <bit>

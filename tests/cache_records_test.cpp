@@ -1,7 +1,7 @@
 // From training vertices to records: their places, the targets' brightness and the scale, inputs and
 // targets against twins in double precision; and that bad radiance leaves no trace in the cache.
-#include "kernels/nrc.h"
-#include "nrc/radiance_cache.h"
+#include "kernels/cache.h"
+#include "nrc/cache/radiance_cache.h"
 #include "nrc/renderer/nrc_config.h"
 #include "shared/network.h"
 #include "tests/support/cache_bench.h"

@@ -1,6 +1,6 @@
 // Training paths of traced scenes: their inputs, and that they ask and end where the spread rule says, as
 // follows in double precision from the positions that were recorded.
-#include "engine/scene/area_table.h"
+#include "engine/scene/lights/area_table.h"
 #include "engine/scene/load_scene.h"
 #include "tests/reference/simple_scenes.h"
 #include "tests/support/kernel_harness.h"

@@ -1,7 +1,7 @@
 // Environments from files: which layer, what is mended, what is too large.
 #include "engine/image/image.h"
-#include "engine/scene/environment_reduction.h"
-#include "engine/scene/light_records.h"
+#include "engine/scene/lights/environment_reduction.h"
+#include "engine/scene/lights/light_records.h"
 #include "engine/scene/load_scene.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/temporary_folder.h"

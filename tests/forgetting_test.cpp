@@ -1,7 +1,7 @@
 // What leaves the screen is forgotten, unless a share of the records comes from all surfaces: the cache
 // learns one end of a hall, then the other, and is asked about the first again.
 #include "engine/image/metrics.h"
-#include "engine/scene/area_table.h"
+#include "engine/scene/lights/area_table.h"
 #include "nrc/renderer/nrc_renderer.h"
 #include "tests/reference/simple_scenes.h"
 #include "tests/support/kernel_harness.h"

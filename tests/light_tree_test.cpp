@@ -1,6 +1,6 @@
 // The hierarchy of lights: what it bounds, how deep it gets, and that no light that reaches a point is out of
 // its reach.
-#include "engine/scene/light_tree.h"
+#include "engine/scene/lights/light_tree.h"
 #include "tests/reference/random.h"
 #include "tests/support/light_chances.h"
 #include <catch2/catch_test_macros.hpp>

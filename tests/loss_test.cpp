@@ -1,6 +1,6 @@
 // Losses of a batch and their gradients against the double-precision twin.
-#include "nrc/loss.h"
-#include "nrc/optimizer.h"
+#include "nrc/learning/loss.h"
+#include "nrc/learning/optimizer.h"
 #include "tests/reference/losses.h"
 #include "tests/reference/random.h"
 #include "tests/support/expect_error.h"

@@ -1,6 +1,6 @@
 // A model's JSON: what is read, what is refused with which words, and that hostile files are refused too.
 #include "engine/error.h"
-#include "nrc/config.h"
+#include "nrc/learning/config.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/whole_model.h"

@@ -1,6 +1,6 @@
 // Models on disk: what is written comes back bit for bit, what is not whole is refused by name, and no half
 // file is left.
-#include "nrc/model_file.h"
+#include "nrc/learning/model_file.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/temporary_folder.h"
 #include <bit>

@@ -1,6 +1,6 @@
 // Rendering with the cache as a whole: equal to path tracing where paths never end in it, unbiased as a
 // control variate, and the same bits each time.
-#include "engine/scene/area_table.h"
+#include "engine/scene/lights/area_table.h"
 #include "engine/scene/load_scene.h"
 #include "nrc/renderer/nrc_renderer.h"
 #include "tests/reference/z_test.h"

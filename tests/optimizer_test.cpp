@@ -1,6 +1,6 @@
 // Optimizer: Adam, its average, decay and clip against the double-precision twin, on gradients that are
 // given.
-#include "nrc/optimizer.h"
+#include "nrc/learning/optimizer.h"
 #include "tests/reference/optimizers.h"
 #include "tests/reference/random.h"
 #include "tests/support/gpu_rounding.h"

@@ -1,5 +1,5 @@
 // A scene packed into the records of shaders/shared/scene.h: decoded, they give back the scene's data.
-#include "engine/scene/light_records.h"
+#include "engine/scene/lights/light_records.h"
 #include "engine/scene/texture_packing.h"
 #include "tests/reference/random.h"
 #include "tests/reference/simple_scenes.h"

@@ -1,8 +1,8 @@
 // Points of the scene's surfaces at which training paths start: uniform over area, seen from directions
 // weighted by the cosine on the sides that can be seen, whatever the wave and the form of the kernels.
 #include "engine/graph/frame_graph.h"
-#include "engine/scene/area_table.h"
 #include "engine/scene/gpu_scene.h"
+#include "engine/scene/lights/area_table.h"
 #include "kernels/path.h"
 #include "shared/path.h"
 #include "shared/queue.h"

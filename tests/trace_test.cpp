@@ -1,6 +1,6 @@
 // The tracing kernels on the device against brute force in double precision.
 #include "engine/graph/frame_graph.h"
-#include "engine/scene/bvh.h"
+#include "engine/scene/bvh/bvh.h"
 #include "kernels/path.h"
 #include "shared/queue.h"
 #include "shared/trace.h"

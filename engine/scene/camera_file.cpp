@@ -1,5 +1,5 @@
 #include "engine/error.h"
-#include "engine/scene/gltf_json_guard.h"
+#include "engine/scene/gltf/json_guard.h"
 #include "engine/scene/load_scene.h"
 #include "engine/scene/scene_box.h"
 #include <algorithm>

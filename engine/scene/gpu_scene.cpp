@@ -1,7 +1,7 @@
 #include "engine/scene/gpu_scene.h"
 
 #include "engine/error.h"
-#include "engine/scene/light_records.h"
+#include "engine/scene/lights/light_records.h"
 #include "engine/scene/reflectance_table.h"
 #include <algorithm>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/gpu/buffer.h"
-#include "engine/scene/bvh.h"
+#include "engine/scene/bvh/bvh.h"
 #include "engine/scene/scene_records.h"
 
 namespace irradia {

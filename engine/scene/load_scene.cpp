@@ -1,11 +1,11 @@
 #include "engine/scene/load_scene.h"
 
-#include "engine/scene/gltf_features.h"
-#include "engine/scene/gltf_instances.h"
-#include "engine/scene/gltf_materials.h"
-#include "engine/scene/gltf_nodes.h"
-#include "engine/scene/gltf_parse.h"
-#include "engine/scene/gltf_validate.h"
+#include "engine/scene/gltf/features.h"
+#include "engine/scene/gltf/instances.h"
+#include "engine/scene/gltf/materials.h"
+#include "engine/scene/gltf/nodes.h"
+#include "engine/scene/gltf/parse.h"
+#include "engine/scene/gltf/validate.h"
 #include "engine/scene/scene_origin.h"
 #include <cmath>
 #include <map>

@@ -1,7 +1,7 @@
 #include "engine/scene/scene_records.h"
 
 #include "engine/error.h"
-#include "engine/scene/light_records.h"
+#include "engine/scene/lights/light_records.h"
 #include "engine/scene/texture_packing.h"
 #include <algorithm>
 #include <bit>

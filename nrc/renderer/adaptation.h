@@ -4,7 +4,7 @@
 // or all is urgent, more of the training paths bring in light themselves.
 #pragma once
 
-#include "nrc/trainer.h"
+#include "nrc/learning/trainer.h"
 
 namespace irradia {
 

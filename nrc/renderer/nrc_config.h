@@ -11,13 +11,13 @@
 //
 // where "base" names the preset that all missing keys are inherited from (nrc/renderer/preset_base.h).
 // Without it every key must be there but "training_spread" (then as "spread"), "end_depth" (none),
-// "residual_share" and "uniform_share" (0). "model" is what nrc/config.h describes, of gpu::kCacheInputs
-// inputs; a file of it alone may have a "base" too.
+// "residual_share" and "uniform_share" (0). "model" is what nrc/learning/config.h describes, of
+// gpu::kCacheInputs inputs; a file of it alone may have a "base" too.
 #pragma once
 
-#include "nrc/config.h"
+#include "nrc/learning/config.h"
+#include "nrc/learning/trainer.h"
 #include "nrc/renderer/adaptation.h"
-#include "nrc/trainer.h"
 #include "shared/cache.h"
 #include <filesystem>
 #include <span>

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "engine/path/wavefront_path_tracer.h"
-#include "nrc/batch_rows.h"
-#include "nrc/radiance_cache.h"
+#include "nrc/cache/radiance_cache.h"
+#include "nrc/learning/batch_rows.h"
 #include "nrc/renderer/nrc_config.h"
 
 namespace irradia {

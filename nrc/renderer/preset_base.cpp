@@ -1,7 +1,7 @@
 #include "nrc/renderer/preset_base.h"
 
 #include "engine/error.h"
-#include "nrc/json_fields.h"
+#include "nrc/learning/json_fields.h"
 #include "nrc/renderer/nrc_config.h"
 #include "nrc/renderer/presets.h"
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "samples/fit_image/image_learner.h"
 
 #include "kernels/pixels.h"
-#include "nrc/batch_rows.h"
+#include "nrc/learning/batch_rows.h"
 #include "samples/fit_image/pixels/pixels.h"
 #include "shared/network.h"
 #include <algorithm>

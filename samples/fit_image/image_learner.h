@@ -1,7 +1,7 @@
 // Learns a picture: place in the unit square -> colour. The picture and all batches stay on the device.
 #pragma once
 
-#include "nrc/trainer.h"
+#include "nrc/learning/trainer.h"
 #include "samples/fit_image/picture.h"
 
 namespace irradia {

@@ -1,7 +1,7 @@
 // irradia bench encodings: the radiance cache's inputs with one encoding or another, in interleaved rounds.
 #include "bench_tools.h"
 #include "commands.h"
-#include "nrc/encoding.h"
+#include "nrc/learning/encoding.h"
 #include "samples/support/interrupt.h"
 #include "samples/support/numbers.h"
 #include "samples/support/outputs.h"

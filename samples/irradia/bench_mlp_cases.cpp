@@ -1,6 +1,6 @@
 #include "bench_mlp_cases.h"
-#include "nrc/batch_rows.h"
-#include "nrc/trainer.h"
+#include "nrc/learning/batch_rows.h"
+#include "nrc/learning/trainer.h"
 #include "shared/network.h"
 #include <chrono>
 #include <glm/gtc/packing.hpp>

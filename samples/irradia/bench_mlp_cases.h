@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/gpu/profiler.h"
-#include "nrc/config.h"
+#include "nrc/learning/config.h"
 #include "samples/yardsticks/mlp_problem.h"
 #include <memory>
 

@@ -5,7 +5,7 @@
 #include "engine/error.h"
 #include "engine/graph/frame_graph.h"
 #include "engine/log.h"
-#include "engine/scene/bvh.h"
+#include "engine/scene/bvh/bvh.h"
 #include "engine/scene/load_scene.h"
 #include "kernels/path.h"
 #include "render_session.h"

@@ -1,6 +1,6 @@
 #include "embree_scene.h"
 #include "engine/error.h"
-#include "engine/scene/embree.h"
+#include "engine/scene/bvh/embree.h"
 #include <atomic>
 #include <chrono>
 #include <thread>

@@ -4,7 +4,7 @@
 #include "engine/image/metrics.h"
 #include "engine/image/picture_file.h"
 #include "engine/log.h"
-#include "engine/scene/area_table.h"
+#include "engine/scene/lights/area_table.h"
 #include "engine/scene/scene_box.h"
 #include "methods.h"
 #include "nrc/renderer/picture_memory.h"

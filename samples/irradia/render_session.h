@@ -25,7 +25,7 @@ struct RenderRequest {
     std::string preset = "balanced"; // of the methods with a cache: a name, or a file
     std::string view;                // empty = the picture
     std::string reference;           // EXR that the view error-sign compares with
-    std::string network;             // JSON of nrc/config.h, instead of the preset's model
+    std::string network;             // JSON of nrc/learning/config.h, instead of the preset's model
     std::string camera;
     std::string environment;
     std::string changes; // JSON of scripted_changes.h

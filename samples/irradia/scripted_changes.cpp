@@ -2,7 +2,7 @@
 
 #include "engine/error.h"
 #include "engine/scene/load_scene.h"
-#include "nrc/json_fields.h"
+#include "nrc/learning/json_fields.h"
 #include <algorithm>
 
 namespace irradia {

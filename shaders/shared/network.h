@@ -57,7 +57,7 @@ SHARED_CONST float kGradientUnits = 1048576.0f;    // in 1
 SHARED_CONST float kLargestContribution = 2047.0f; // keeps its units below 2^31
 
 // weight_gradient: a batch's rows are summed in kGradientChunks chunks of chunkRows rows, a multiple of kRowPadding (of huge
-// batches in more: nrc/batch_rows.h). A pass sums `chunks` of them, from firstChunk on, whose rows are those from `first` on.
+// batches in more: nrc/learning/batch_rows.h). A pass sums `chunks` of them, from firstChunk on, whose rows are those from `first` on.
 SHARED_CONST uint kGradientChunks = 32u;
 struct WeightGradientParams {
     uint counter;

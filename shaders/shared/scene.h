@@ -36,7 +36,7 @@ SHARED_CONST uint kNoTexture = 0xffffffffu;
 // the triangle's leaf: bit d = the second child is taken at depth d. Scenes of few lights have no hierarchy, but an alias
 // table over power (Vose 1991):
 //   keep probability (float), alias (light index), primitive, probability mass of this light (float)
-// Node of that hierarchy, from record lightCount on, the root first (engine/scene/light_tree):
+// Node of that hierarchy, from record lightCount on, the root first (engine/scene/lights/light_tree):
 //   0: centre and radius of a sphere around its triangles
 //   1: axis (octahedral) and cosine of a cone that holds their normals, power (share of all), first of two children or
 //      kLightLeaf | light index

@@ -1,7 +1,7 @@
 // An Encoding run on rows given and returned as plain matrices, with its twin.
 #pragma once
 
-#include "nrc/encoding.h"
+#include "nrc/learning/encoding.h"
 #include "tests/support/encoding_twin.h"
 #include "tests/support/network_rows.h"
 

@@ -5,7 +5,7 @@
 // beyond, or where R^dims entries do not fit the hash table, it is that table.
 #pragma once
 
-#include "nrc/config.h"
+#include "nrc/learning/config.h"
 #include "tests/reference/encodings.h"
 #include "tests/reference/feature_grid.h"
 #include <glm/glm.hpp>

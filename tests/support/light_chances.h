@@ -1,7 +1,7 @@
 // The twin of choosing a light, for a hierarchy of the engine.
 #pragma once
 
-#include "engine/scene/light_tree.h"
+#include "engine/scene/lights/light_tree.h"
 #include "tests/reference/light_tree.h"
 
 namespace irradia::test {

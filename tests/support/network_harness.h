@@ -1,7 +1,7 @@
 // A Network run on rows given and returned as plain matrices, and its twin of the reference.
 #pragma once
 
-#include "nrc/network.h"
+#include "nrc/learning/network.h"
 #include "tests/reference/network.h"
 #include "tests/support/network_rows.h"
 

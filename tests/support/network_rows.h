@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/gpu/buffer.h"
-#include "nrc/config.h"
+#include "nrc/learning/config.h"
 #include "tests/support/kernel_harness.h"
 
 namespace irradia::test {

@@ -1,6 +1,6 @@
 #include "tests/support/oracle_cache.h"
 
-#include "kernels/nrc.h"
+#include "kernels/cache.h"
 #include "shared/network.h"
 #include "tests/support/cache_buffers.h"
 #include <bit>

@@ -1,6 +1,6 @@
 #include "tests/support/trainer_harness.h"
 
-#include "nrc/model_file.h"
+#include "nrc/learning/model_file.h"
 #include "shared/network.h"
 #include "tests/reference/half.h"
 #include "tests/reference/random.h"

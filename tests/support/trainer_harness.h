@@ -1,7 +1,7 @@
 // A small Trainer fed with records as plain matrices, all that it has learned, and its twin of the reference.
 #pragma once
 
-#include "nrc/trainer.h"
+#include "nrc/learning/trainer.h"
 #include "shared/training.h"
 #include "tests/reference/training.h"
 

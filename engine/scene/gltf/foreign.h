@@ -1,0 +1,11 @@
+// Telling what a file is that was given as a scene and is no glTF, by its first bytes.
+#pragma once
+
+#include "engine/scene/gltf/file.h"
+
+namespace irradia::gltf {
+
+// Throws BadData naming the format of a file that is known to be another one.
+void refuseForeignFormat(const SourceFile& source);
+
+} // namespace irradia::gltf

@@ -1,0 +1,49 @@
+// The names that a model's JSON has for our enumerations.
+#pragma once
+
+#include "nrc/learning/config.h"
+#include "nrc/learning/json_fields.h"
+
+namespace irradia {
+
+constexpr EnumName<EncodingType> kEncodingNames[] = {
+    {EncodingType::Empty, "Empty"},         {EncodingType::Identity, "Identity"},
+    {EncodingType::Frequency, "Frequency"}, {EncodingType::TriangleWave, "TriangleWave"},
+    {EncodingType::OneBlob, "OneBlob"},     {EncodingType::SphericalHarmonics, "SphericalHarmonics"},
+    {EncodingType::DenseGrid, "DenseGrid"}, {EncodingType::SparseGrid, "SparseGrid"},
+    {EncodingType::HashGrid, "HashGrid"},
+};
+
+// Of a OneBlob's "kernel" (gaussian or not) and a grid's "aggregation" (mean or not).
+constexpr EnumName<bool> kKernelNames[] = {{false, "Quartic"}, {true, "Gaussian"}};
+constexpr EnumName<bool> kAggregationNames[] = {{false, "Concatenation"}, {true, "Mean"}};
+
+constexpr EnumName<OutputActivation> kOutputActivationNames[] = {
+    {OutputActivation::None, "None"},
+    {OutputActivation::ReLU, "ReLU"},
+    {OutputActivation::Exponential, "Exponential"},
+    {OutputActivation::Softplus, "Softplus"},
+};
+
+constexpr EnumName<Precision> kPrecisionNames[] = {{Precision::Float, "Float"}, {Precision::Half, "Half"}};
+
+constexpr EnumName<NetworkForm> kFormNames[] = {
+    {NetworkForm::Auto, "Auto"},
+    {NetworkForm::Subgroup, "Subgroup"},
+    {NetworkForm::Workgroup, "Workgroup"},
+};
+
+constexpr EnumName<LossType> kLossNames[] = {
+    {LossType::L2, "L2"},
+    {LossType::RelativeL2, "RelativeL2"},
+    {LossType::RelativeL2Luminance, "RelativeL2Luminance"},
+};
+
+enum class OptimizerType { Adam, Ema, ExponentialDecay };
+constexpr EnumName<OptimizerType> kOptimizerNames[] = {
+    {OptimizerType::Adam, "Adam"},
+    {OptimizerType::Ema, "Ema"},
+    {OptimizerType::ExponentialDecay, "ExponentialDecay"},
+};
+
+} // namespace irradia

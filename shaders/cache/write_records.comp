@@ -1,0 +1,33 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Training vertices as records for the trainer, side by side.
+#include "lib/kernel.glsl"
+#include "shared/cache.h"
+#include "shared/network.h"
+
+COUNTERS(0, counters);
+RECORDS_READ(1, pathSums);
+WORDS_READ(2, firstRecords);
+layout(set = 0, binding = 3, std430) readonly buffer TrainingVertices { vec4 trainingVertices[]; };
+layout(set = 0, binding = 4, std430) readonly buffer State { CacheState cacheState; };
+RECORDS_WRITE(5, inputs);
+RECORDS_WRITE(6, targets);
+layout(push_constant) uniform Push { RecordsParams params; };
+#include "cache/prediction.glsl"
+
+void main() {
+    uint path = gl_GlobalInvocationID.x / kMaxTrainingVertices;
+    uint vertex = gl_GlobalInvocationID.x % kMaxTrainingVertices;
+    if (path >= params.paths || vertex >= loadRecord(pathSums, path).x) return;
+    uint record = loadWord(firstRecords, path) + vertex;
+    if (record >= params.capacity) return;
+    uint at = gl_GlobalInvocationID.x * kTrainingVertexVectors;
+    vec4 quads[kCacheInputQuads];
+    [[unroll]] for (uint q = 0u; q < kCacheInputQuads; ++q) {
+        quads[q] = trainingVertices[at + q];
+        storeRecord(inputs, quadIndex(record, q, kCacheInputQuads), floatBitsToUint(quads[q]));
+    }
+    vec3 factor = params.factorise != 0u ? reflectanceOf(quads[2], quads[3]) : vec3(1.0);
+    vec3 target = toTarget(trainingVertices[at + kGathered].rgb, factor);
+    storeRecord(targets, record, floatBitsToUint(vec4(target, 0.0)));
+}

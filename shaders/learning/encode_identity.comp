@@ -1,0 +1,19 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#pragma variant encode_identity_half QUADS_IN_HALF
+// scale x + offset.
+#include "learning/encode.glsl"
+
+layout(constant_id = 8) const float kScale = 1.0;
+layout(constant_id = 9) const float kOffset = 0.0;
+
+QUADS_WRITE(2, encoded);
+
+void main() {
+    uint row = gl_GlobalInvocationID.x;
+    if (row >= ROW_COUNT) return;
+    loadInputs(row);
+    float values[kDims];
+    [[unroll]] for (uint d = 0u; d < kDims; ++d) values[d] = kScale * x[d] + kOffset;
+    storeValues(row, values, kDims);
+}

@@ -45,9 +45,9 @@ uint32_t mostPixelsOfWave(const NrcOptions& options, uint64_t bindingBytes) {
 
 PathTracerOptions pathOptions(bool isCpu, const VkPhysicalDeviceLimits& limits, const NrcOptions& options) {
     PathTracerOptions paths = options.paths;
-    paths.cached = true;
-    paths.trainingPaths = std::max(mostCameraPaths(options) - mostTiles(options), mostSurfacePaths(options));
-    paths.waveSize = std::min(PathBuffers::wantedWave(isCpu, options.paths),
+    paths.kernels = cachedVertexKernels();
+    paths.unseenPaths = std::max(mostCameraPaths(options) - mostTiles(options), mostSurfacePaths(options));
+    paths.waveSize = std::min(WaveBuffers::wantedWave(isCpu, options.paths),
                               mostPixelsOfWave(options, limits.maxStorageBufferRange));
     return paths;
 }
@@ -78,6 +78,9 @@ NrcRenderer::NrcRenderer(Device& device, const GpuScene& scene, const Bounds& bo
     : options_(options)
     , bounds_(bounds)
     , tracer_(device, scene, pathOptions(device.isCpu(), device.limits(), options), profiler)
+    , tap_(device)
+    // The range that is bound begins at a whole tile of rows.
+    , mostTraining_(device.limits().maxStorageBufferRange / gpu::kVertexBytes - gpu::kTileRows)
     , cache_(device, cacheOptions(options, tracer_.largestWave()))
     , adaptation_(options.config.adaptation, options.config.steps, options.config.model.optimizer.emaDecay)
     , hasSurfaces_(scene.triangles > 0)
@@ -86,28 +89,28 @@ NrcRenderer::NrcRenderer(Device& device, const GpuScene& scene, const Bounds& bo
 std::vector<Device::PlannedBuffer> NrcRenderer::planned(bool isCpu, const VkPhysicalDeviceLimits& limits,
                                                         const NrcOptions& options) {
     const PathTracerOptions paths = pathOptions(isCpu, limits, options);
-    auto list = PathBuffers::planned(isCpu, paths);
+    auto list = WavefrontPathTracer::planned(isCpu, paths);
     auto cache =
-        RadianceCache::planned(isCpu, limits, cacheOptions(options, PathBuffers::largestWave(isCpu, paths)));
+        RadianceCache::planned(isCpu, limits, cacheOptions(options, WaveBuffers::largestWave(isCpu, paths)));
     list.insert(list.end(), std::move_iterator(cache.begin()), std::move_iterator(cache.end()));
     return list;
 }
 
 void NrcRenderer::renderFrame(const Camera& camera, uint32_t index) {
     FrameGraph& graph = tracer_.graph();
-    tracer_.beginFrame();
+    tracer_.beginFrame(camera, index);
     cache_.begin(graph);
     if (!isShown()) ++framesWithoutCache_;
     for (Waves waves = tracer_.waves(); const auto wave = waves.next();) {
-        const CachePaths paths = cachePaths(*wave);
+        const PathTap tap = tap_.listen(tracer_, cachePaths(*wave));
         cache_.beginQueries(graph);
-        tracer_.traceWave(camera, *wave, index, &paths);
+        tracer_.traceWave(*wave, &tap);
         graph.section("query");
         cache_.answer(graph, tracer_.radiance(), options_.config.shown, options_.config.showReflectance);
         graph.section("");
         tracer_.addToFilm(*wave);
     }
-    if (learns_) learn(camera, index);
+    if (learns_) learn();
     graph.execute();
     tracer_.endFrame();
     counts_ = cache_.counts();
@@ -120,17 +123,20 @@ void NrcRenderer::renderFrame(const Camera& camera, uint32_t index) {
 }
 
 // Paths that are not seen, and what all training paths of the frame teach.
-void NrcRenderer::learn(const Camera& camera, uint32_t index) {
+void NrcRenderer::learn() {
     FrameGraph& graph = tracer_.graph();
     graph.section("train");
     uint32_t first = training_.tiles();
-    for (Waves waves = tracer_.trainingWaves(training_.camera); const auto wave = waves.next();) {
-        const CachePaths paths = unseenPaths(*wave, first);
-        tracer_.traceWave(camera, *wave, index, &paths);
+    for (Waves waves = tracer_.unseenCameraWaves(training_.camera, mostTraining_);
+         const auto wave = waves.next();) {
+        const PathTap tap = tap_.listen(tracer_, unseenPaths(*wave, first));
+        tracer_.traceWave(*wave, &tap);
         first += wave->paths();
     }
-    for (Waves waves = tracer_.surfaceWaves(training_.surfaces); const auto wave = waves.next();) {
-        tracer_.traceSurfaceWave(*wave, index, meanChord(bounds_), unseenPaths(*wave, first));
+    for (Waves waves = tracer_.surfaceWaves(training_.surfaces, mostTraining_);
+         const auto wave = waves.next();) {
+        const PathTap tap = tap_.listen(tracer_, unseenPaths(*wave, first));
+        tracer_.traceSurfaceWave(*wave, meanChord(bounds_), tap);
         first += wave->paths();
     }
     cache_.learn(graph, training_.count(), adaptation_.effort());
@@ -222,8 +228,6 @@ gpu::CacheRule NrcRenderer::rule() const {
     rule.lastDepth = rule.deepest + config.suffixBounces;
     rule.tilesX = training_.tilesX;
     rule.tilesY = training_.tilesY;
-    rule.width = options_.paths.width;
-    rule.height = options_.paths.height;
     rule.unbiasedShare = adaptation_.unbiasedShare(config.unbiasedShare);
     rule.residualShare = config.residualShare;
     rule.trainingSpread = config.trainingSpread;

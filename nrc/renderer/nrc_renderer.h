@@ -2,9 +2,9 @@
 // of them while frames are rendered.
 #pragma once
 
-#include "engine/path/wavefront_path_tracer.h"
 #include "nrc/cache/radiance_cache.h"
 #include "nrc/learning/batch_rows.h"
+#include "nrc/renderer/cache_tap.h"
 #include "nrc/renderer/nrc_config.h"
 
 namespace irradia {
@@ -50,7 +50,7 @@ private:
         uint32_t count() const { return tiles() + camera + surfaces; }
     };
 
-    void learn(const Camera& camera, uint32_t index);
+    void learn();
     TrainingPaths wantedPaths() const;
     RowRange tilesOf(const Wave& wave) const;
     bool isShown() const;
@@ -62,6 +62,8 @@ private:
     NrcOptions options_;
     Bounds bounds_;
     WavefrontPathTracer tracer_;
+    CacheTap tap_;
+    uint32_t mostTraining_; // paths of a wave at most, whose vertices one binding holds
     RadianceCache cache_;
     CacheCounts counts_;
     Adaptation adaptation_;

@@ -27,10 +27,10 @@ NrcOptions scaled(NrcOptions options, double scale) {
 std::vector<Device::PlannedBuffer> pictureBuffers(const Device& device, const NrcOptions& options,
                                                   bool hasCache) {
     auto buffers = hasCache ? NrcRenderer::planned(device.isCpu(), device.limits(), options)
-                            : PathBuffers::planned(device.isCpu(), options.paths);
+                            : WavefrontPathTracer::planned(device.isCpu(), options.paths);
     if (device.sharesMemory())
         buffers.push_back(
-            {"picture read back", FilmImage::hostBytes(options.paths.pixels(), options.paths.surfaces), 1});
+            {"picture read back", FilmImage::hostBytes(options.paths.pixels(), options.paths.layers), 1});
     return buffers;
 }
 

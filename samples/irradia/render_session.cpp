@@ -195,7 +195,7 @@ NrcOptions RenderSession::rendererOptions() const {
     options.paths.maxBounces = request_.maxBounces;
     options.paths.samplesPerFrame = request_.samplesPerFrame;
     options.paths.seed = request_.seed;
-    options.paths.surfaces = request_.surfaces;
+    options.paths.layers = request_.surfaces;
     options.seed = request_.seed;
     if (!hasCache()) return options;
     options.config = preset_;

@@ -16,7 +16,7 @@ uint64_t padded(uint64_t rows) {
 }
 
 PathTracerOptions asked(PathTracerOptions options) {
-    options.cached = true;
+    options.kernels = cachedVertexKernels();
     options.waveSize = options.width * options.height;
     return options;
 }
@@ -30,6 +30,7 @@ OracleCache::OracleCache(Device& device, const PathTracerOptions& options, float
     , radiance_(radiance)
     , surfacePaths_(surfacePaths)
     , pathRows_(padded(tilesX * tilesY + surfacePaths))
+    , tap_(device)
     , resolveQueries_(device, kernels::resolve_queries)
     , propagateTraining_(device, kernels::propagate_training)
     , queries_(device, "queries", padded(options_.waveSize) * kInputBytes)
@@ -51,8 +52,6 @@ OracleCache::OracleCache(Device& device, const PathTracerOptions& options, float
     rule_.lastDepth = rule_.deepest + 8;
     rule_.tilesX = tilesX;
     rule_.tilesY = tilesY;
-    rule_.width = options_.width;
-    rule_.height = options_.height;
     rule_.trainingSpread = kNever;
 }
 
@@ -61,18 +60,20 @@ FilmImage OracleCache::render(const GpuScene& scene, const Camera& camera, uint3
     for (uint32_t frame = 0; frame < frames; ++frame) {
         const CachePaths paths{queries_,          queryWeights_,    counters_, trainingPaths_,
                                trainingVertices_, trainingQueries_, rule_};
-        tracer.beginFrame();
+        tracer.beginFrame(camera, frame);
         tracer.graph().fill(counters_, 0);
         tracer.graph().fill(trainingPaths_, 0);
         for (Waves waves = tracer.waves(); const auto wave = waves.next();) {
-            tracer.traceWave(camera, *wave, frame, &paths);
+            const PathTap tap = tap_.listen(tracer, paths);
+            tracer.traceWave(*wave, &tap);
             answer(tracer);
             tracer.addToFilm(*wave);
         }
         CachePaths fromSurfaces = paths;
         fromSurfaces.rule.waveTraining = rule_.tilesX * rule_.tilesY;
-        for (Waves waves = tracer.surfaceWaves(surfacePaths_); const auto wave = waves.next();) {
-            tracer.traceSurfaceWave(*wave, frame, kSurfaceDistance, fromSurfaces);
+        for (Waves waves = tracer.surfaceWaves(surfacePaths_, UINT32_MAX); const auto wave = waves.next();) {
+            const PathTap tap = tap_.listen(tracer, fromSurfaces);
+            tracer.traceSurfaceWave(*wave, kSurfaceDistance, tap);
             fromSurfaces.rule.waveTraining += wave->paths();
         }
         propagate(tracer.graph());

@@ -2,7 +2,7 @@
 // records can then be judged by what it must come to.
 #pragma once
 
-#include "engine/path/wavefront_path_tracer.h"
+#include "nrc/renderer/cache_tap.h"
 #include "tests/reference/cache.h"
 #include <vector>
 
@@ -36,6 +36,7 @@ private:
     uint32_t surfacePaths_;
     uint64_t pathRows_;
     gpu::CacheRule rule_{};
+    CacheTap tap_;
     Kernel resolveQueries_, propagateTraining_;
     Buffer queries_, queryWeights_, predictions_, counters_, state_;
     Buffer trainingPaths_, trainingVertices_, trainingQueries_, pathSums_;

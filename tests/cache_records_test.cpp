@@ -1,7 +1,7 @@
 // From training vertices to records: their places, the targets' brightness and the scale, inputs and
 // targets against twins in double precision; and that bad radiance leaves no trace in the cache.
 #include "kernels/cache.h"
-#include "nrc/cache/radiance_cache.h"
+#include "nrc/cache/neural_cache.h"
 #include "nrc/renderer/nrc_config.h"
 #include "shared/network.h"
 #include "tests/support/cache_bench.h"
@@ -375,24 +375,23 @@ TEST_CASE("planted: records that are exchanged, not demodulated, not scaled, or 
 
 namespace {
 
-CacheOptions smallCache() {
-    CacheOptions options;
+NeuralCacheOptions smallCache() {
+    NeuralCacheOptions options;
     options.model = nrcPreset("fast").model;
-    options.queries = options.trainingPaths = 256;
-    options.records = 1024;
     options.steps = 2;
     return options;
 }
+constexpr CacheRoom kRoom{256, 256, 1024};
 
 // A frame whose training paths are given.
-void learn(Device& device, RadianceCache& cache, const std::vector<TrainingPath>& paths) {
+void learn(Device& device, NeuralCache& cache, const std::vector<TrainingPath>& paths) {
     FrameGraph graph(device);
     cache.begin(graph);
     graph.execute();
     const TrainingBuffers packed = packPaths(paths);
-    upload<glm::uvec4>(device, cache.trainingPaths(), packed.paths);
-    upload<glm::uvec4>(device, cache.trainingVertices(), packed.vertices);
-    upload<glm::uvec4>(device, *cache.trainingQueries().buffer, packed.queries);
+    upload<glm::uvec4>(device, *cache.tap().trainingPaths.buffer, packed.paths);
+    upload<glm::uvec4>(device, *cache.tap().trainingVertices.buffer, packed.vertices);
+    upload<glm::uvec4>(device, *cache.tap().trainingQueries.buffer, packed.queries);
     cache.learn(graph, static_cast<uint32_t>(paths.size()));
     graph.execute();
 }
@@ -405,7 +404,7 @@ bool isFinite(const std::vector<float>& values) {
 
 TEST_CASE("bad radiance in training vertices is dropped and counted, and everything stays finite") {
     Device& device = deviceWith(RecordAccess::Texel);
-    RadianceCache cache(device, smallCache());
+    NeuralCache cache(device, smallCache(), kRoom);
     Random random(41);
     uint32_t dropped = 0, records = 0;
     for (int frame = 0; frame < 6; ++frame) {

@@ -25,6 +25,7 @@ SHARED_BEGIN
 // multiplied where the cache factorises it.
 SHARED_CONST uint kCacheInputs = 14u;
 SHARED_CONST uint kCacheInputQuads = 4u;
+SHARED_CONST uint kCacheInputBytes = kCacheInputQuads * 16u; // of a row
 SHARED_CONST uint kCacheOutputs = 3u;
 
 // Words of the cache's counters.

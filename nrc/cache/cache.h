@@ -29,7 +29,7 @@ struct CacheTap {
 struct CacheRoom {
     uint32_t queries = 0;       // of a wave at most
     uint32_t trainingPaths = 0; // of a frame at most
-    uint32_t records = 4096;    // of a frame, wanted; half as many again have room, and more are left out
+    uint32_t records = 4096;    // of a frame, wanted; half as many again have room, of more some are left out
 };
 
 // Of executed frames; what a cache does not count stays 0.

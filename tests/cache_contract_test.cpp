@@ -25,17 +25,28 @@ PathTracerOptions picture(uint32_t size) {
     return options;
 }
 
-const GpuScene& furnace() {
-    static const GpuScene* scene = [] {
-        Scene made;
+const Scene& sphere() {
+    static const Scene* scene = [] {
+        auto* made = new Scene;
         const uint32_t wall =
-            reference::addMaterial(made, reference::lambert(glm::vec3(0.5f), glm::vec3(0.5f)));
-        reference::addSphereFromInside(made, wall, glm::vec3(0.0f), 1.0f, 16);
-        SceneRecords records = packScene(made);
-        packAreaTable(records);
-        return new GpuScene(uploadScene(device(), records, buildBvh(made)));
+            reference::addMaterial(*made, reference::lambert(glm::vec3(0.5f), glm::vec3(0.5f)));
+        reference::addSphereFromInside(*made, wall, glm::vec3(0.0f), 1.0f, 16);
+        return made;
     }();
     return *scene;
+}
+
+const GpuScene& furnace() {
+    static const GpuScene* scene = [] {
+        SceneRecords records = packScene(sphere());
+        packAreaTable(records);
+        return new GpuScene(uploadScene(device(), records, buildBvh(sphere())));
+    }();
+    return *scene;
+}
+
+OracleRenderer withOracle(const NrcOptions& options) {
+    return {device(), furnace(), sceneBounds(sphere()), options};
 }
 
 const Camera kCamera = reference::lookAt({0.1f, 0.2f, 0.0f}, {0.0f, 0.0f, 1.0f}, 1.2f);
@@ -54,10 +65,10 @@ constexpr double kTolerance = 0.005;
 
 TEST_CASE("an oracle gives the furnace's radiance whatever the spread at which paths end") {
     for (const float c : {-1.0f, 1e-4f, 1e-2f, 1.0f, 10.0f}) {
-        OracleCache oracle(device(), picture(256), 0.5f);
-        oracle.rule().boxHigh.w = c;
+        NrcOptions options = oracleOptions(picture(256), 0.5f);
+        options.config.spread = c;
         INFO("c = " << c);
-        CHECK(std::abs(mean(oracle.render(furnace(), kCamera, kFrames).mean) - 1.0) < kTolerance);
+        CHECK(std::abs(mean(withOracle(options).render(kCamera, kFrames).mean) - 1.0) < kTolerance);
     }
 }
 
@@ -68,9 +79,9 @@ TEST_CASE(
         // A tenth too much of what half ^ depth of all light passes through.
         const double tooMuch = 0.05 * std::pow(0.5, depth);
         for (const bool bright : {false, true}) {
-            OracleCache oracle(device(), picture(256), bright ? 0.55f : 0.5f);
-            oracle.rule().endDepth = depth;
-            const double seen = mean(oracle.render(furnace(), kCamera, kFrames).mean);
+            NrcOptions options = oracleOptions(picture(256), bright ? 0.55f : 0.5f);
+            options.config.endDepth = depth;
+            const double seen = mean(withOracle(options).render(kCamera, kFrames).mean);
             CHECK(std::abs(seen - (bright ? 1.0 + tooMuch : 1.0)) < kTolerance);
             if (bright && depth <= 2) CHECK_FALSE(std::abs(seen - 1.0) < kTolerance);
         }
@@ -86,11 +97,11 @@ TEST_CASE("targets are the furnace's scattered radiance at every vertex of train
     for (const Case& c : {Case{0.01f, 0.0f}, Case{0.01f, 1.0f}, Case{1.0f, 0.25f}, Case{kNever, 0.0f}}) {
         INFO("c = " << c.spread << ", unbiased share " << c.unbiasedShare);
         for (const bool bright : {false, true}) {
-            OracleCache oracle(device(), picture(256), bright ? 0.6f : 0.5f, 128, 128);
-            oracle.rule().boxHigh.w = c.spread;
-            oracle.rule().trainingSpread = c.spread;
-            oracle.rule().unbiasedShare = c.unbiasedShare;
-            oracle.render(furnace(), kCamera, 1);
+            NrcOptions options = oracleOptions(picture(256), bright ? 0.6f : 0.5f, 128 * 128);
+            options.config.spread = options.config.trainingSpread = c.spread;
+            options.config.unbiasedShare = c.unbiasedShare;
+            OracleRenderer oracle = withOracle(options);
+            oracle.render(kCamera, 1);
             const std::vector<glm::vec3> targets = oracle.targets();
             REQUIRE(targets.size() > 16384);
             const double target = mean(targets);
@@ -111,11 +122,12 @@ TEST_CASE("targets of paths from the surfaces are the furnace's scattered radian
     for (const Case& c : {Case{-1.0f, 0.0f}, Case{0.01f, 0.0625f}, Case{0.01f, 1.0f}, Case{30.0f, 0.25f}}) {
         INFO("c = " << c.spread << ", unbiased share " << c.unbiasedShare);
         for (const bool bright : {false, true}) {
-            OracleCache oracle(device(), picture(192), bright ? 0.6f : 0.5f, 1, 1, 32768);
-            oracle.rule().endDepth = 0; // of what is seen
-            oracle.rule().trainingSpread = c.spread;
-            oracle.rule().unbiasedShare = c.unbiasedShare;
-            oracle.render(furnace(), kCamera, 1);
+            NrcOptions options = oracleOptions(picture(192), bright ? 0.6f : 0.5f, 32768, true);
+            options.config.endDepth = 0; // of what is seen
+            options.config.trainingSpread = c.spread;
+            options.config.unbiasedShare = c.unbiasedShare;
+            OracleRenderer oracle = withOracle(options);
+            oracle.render(kCamera, 1);
             const std::vector<reference::TrainingPath> paths = oracle.trainingPaths();
             // All start with a record, and go on with the one light sample and one bounce of their vertex.
             double sum = 0.0, longest = 0.0, ends = 0.0;
@@ -139,15 +151,18 @@ TEST_CASE("targets of paths from the surfaces are the furnace's scattered radian
 }
 
 TEST_CASE("one path of each tile trains, another in each frame") {
-    OracleCache oracle(device(), picture(64), 0.5f, 13, 7);
-    oracle.rule().endDepth = 0;
-    oracle.rule().trainingSpread = -1.0f;
-    oracle.render(furnace(), kCamera, 1);
+    constexpr uint32_t kTiles = 9 * 10; // neither side divides the picture's
+    NrcOptions options = oracleOptions(picture(64), 0.5f, kTiles);
+    options.config.endDepth = 0;
+    options.config.trainingSpread = -1.0f;
+    OracleRenderer oracle = withOracle(options);
+    CHECK(oracle.rule().tilesX == 9);
+    oracle.render(kCamera, 1);
     const std::vector<glm::vec3> first = oracle.targets();
-    CHECK(first.size() == 13 * 7); // the vertex that is asked; the one after it ends the suffix
+    CHECK(first.size() == kTiles); // the vertex that is asked; the one after it ends the suffix
     CHECK(oracle.queryWeights().size() == 64 * 64);
-    oracle.render(furnace(), kCamera, 2);
-    CHECK(oracle.targets().size() == 13 * 7);
+    oracle.render(kCamera, 2);
+    CHECK(oracle.targets().size() == kTiles);
     CHECK(oracle.targets() != first);
 }
 

@@ -79,10 +79,11 @@ TEST_CASE("what a mirror shows is not the cache") {
     const double truth =
         contrast(GpuRenderer(device(), scene).render(camera, options, kFrames), camera.verticalFov);
     const auto contrastWith = [&](float spread, uint32_t endDepth) {
-        OracleCache oracle(device(), options, 0.5f);
-        oracle.rule().boxHigh.w = spread;
-        oracle.rule().endDepth = endDepth;
-        return contrast(oracle.render(gpu, camera, kFrames), camera.verticalFov) / truth;
+        NrcOptions asked = oracleOptions(options, 0.5f);
+        asked.config.spread = spread;
+        asked.config.endDepth = endDepth;
+        OracleRenderer oracle(device(), gpu, sceneBounds(scene), asked);
+        return contrast(oracle.render(camera, kFrames), camera.verticalFov) / truth;
     };
     CHECK(contrastWith(0.01f, gpu::kNoDepth) > 0.97);
     // Planted: paths that end at the vertex behind the mirror.

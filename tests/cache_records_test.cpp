@@ -1,10 +1,13 @@
 // From training vertices to records: their places, the targets' brightness and the scale, inputs and
 // targets against twins in double precision; and that bad radiance leaves no trace in the cache.
 #include "kernels/cache.h"
-#include "nrc/cache/radiance_cache.h"
+#include "kernels/shaders.h"
+#include "nrc/cache/neural_cache.h"
 #include "nrc/renderer/nrc_config.h"
 #include "shared/network.h"
+#include "tests/shaders/harness.h"
 #include "tests/support/cache_bench.h"
+#include "tests/support/kernel_harness.h"
 #include <algorithm>
 #include <bit>
 #include <catch2/catch_test_macros.hpp>
@@ -261,6 +264,9 @@ std::vector<WrittenRecord> write(RecordAccess form, const std::vector<TrainingPa
                                  double scale, size_t rows) {
     CacheBench bench(form);
     bench.set(stateOf(scale));
+    const uint32_t total = recordsOf(places), kept = std::min(total, capacity);
+    bench.set(gpu::kRecordCounter, kept);
+    bench.set(gpu::kSkippedRecords, total - kept);
     const std::vector<uint32_t> first = firstRecordsOf(places);
     const Buffer sums = bench.make(packSums(places)), firstRecords = makeBuffer(bench.device, "first", first),
                  vertices = bench.make(packPaths(paths).vertices),
@@ -293,13 +299,23 @@ std::vector<WrittenRecord> write(RecordAccess form, const std::vector<TrainingPa
     return result;
 }
 
+std::vector<PathSum> placesOf(const std::vector<TrainingPath>& paths) {
+    std::vector<PathSum> places(paths.size());
+    for (size_t p = 0; p < paths.size(); ++p)
+        places[p].records = static_cast<uint32_t>(paths[p].vertices.size());
+    return places;
+}
+
 // Rows that are not what they should be.
 size_t wrongRows(const std::vector<WrittenRecord>& written, const std::vector<TrainingPath>& paths,
                  uint32_t capacity, bool factorise, double scale) {
-    size_t wrong = 0, row = 0;
+    const uint32_t total = recordsOf(placesOf(paths));
+    size_t wrong = 0, row = 0, record = 0;
     for (const TrainingPath& path : paths)
         for (const reference::TrainingVertex& v : path.vertices) {
-            if (row >= capacity) break;
+            const auto place = reference::evenPlace(record++, std::min(total, capacity), total);
+            if (!place) continue;
+            wrong += *place != row;
             const Vec3 factor = factorise ? reference::reflectance(v.inputs) : Vec3(1.0);
             const Vec3 target = reference::toTarget(v.gathered, factor, scale);
             const auto& actual = written.at(row++);
@@ -309,13 +325,6 @@ size_t wrongRows(const std::vector<WrittenRecord>& written, const std::vector<Tr
         }
     for (; row < written.size(); ++row) wrong += written[row].has_value();
     return wrong;
-}
-
-std::vector<PathSum> placesOf(const std::vector<TrainingPath>& paths) {
-    std::vector<PathSum> places(paths.size());
-    for (size_t p = 0; p < paths.size(); ++p)
-        places[p].records = static_cast<uint32_t>(paths[p].vertices.size());
-    return places;
 }
 
 } // namespace
@@ -335,6 +344,64 @@ TEST_CASE("records hold each training vertex once, its target demodulated and sc
                 CHECK(wrongRows(written, paths, capacity, factorise, 4.0) == 0);
             }
     }
+}
+
+// In every stretch of records as many are left out as its share, to within one.
+TEST_CASE("what is beyond the capacity is left out evenly") {
+    const auto worst = [](const std::vector<bool>& isKept, uint32_t kept) {
+        const auto n = static_cast<double>(isKept.size());
+        double sum = 0.0, largest = 0.0;
+        for (size_t k = 0; k < isKept.size(); ++k) {
+            sum += isKept[k];
+            largest = std::max(largest, std::abs(sum - double(k + 1) * kept / n));
+        }
+        return largest;
+    };
+    Random random(17);
+    const std::vector<TrainingPath> paths = randomPaths(random, 300);
+    const uint32_t total = recordsOf(placesOf(paths));
+    for (const uint32_t capacity : {1u, total / 3, total / 2, total - 1}) {
+        INFO(capacity << " of " << total);
+        const auto written = write(RecordAccess::Texel, paths, placesOf(paths), capacity, false, 1.0, 2048);
+        CHECK(wrongRows(written, paths, capacity, false, 1.0) == 0);
+        // Inputs are random: each row tells which vertex it is.
+        std::vector<bool> isKept;
+        size_t row = 0;
+        for (const TrainingPath& path : paths)
+            for (const reference::TrainingVertex& v : path.vertices) {
+                isKept.push_back(written[row] && written[row]->first == v.inputs);
+                row += isKept.back();
+            }
+        CHECK(row == capacity);
+        CHECK(worst(isKept, capacity) <= 1.0);
+        // Planted: the last ones left out.
+        std::vector<bool> first(total, false);
+        std::fill_n(first.begin(), capacity, true);
+        if (capacity > 1 && capacity < total - 1) CHECK(worst(first, capacity) > 0.1 * total);
+    }
+}
+
+TEST_CASE("places among the kept are exact for products beyond 32 bits") {
+    test::KernelHarness kernel(kernels::even_place);
+    Random random(18);
+    Quads things;
+    for (int i = 0; i < 4096; ++i) {
+        const auto below = [&](double most) { return static_cast<uint32_t>(random.uniform() * most); };
+        const uint32_t n = 1 + below(std::exp2(31.0 * random.uniform()));
+        things.emplace_back(below(n), below(n + 1.0), n, 0);
+    }
+    things.emplace_back(0x7ffffffeu, 0x7fffffffu, 0x7fffffffu, 0);
+    things.emplace_back(0x7ffffffeu, 0x7ffffffeu, 0x7fffffffu, 0);
+    const Buffer input = recordBuffer(things);
+    const auto count = static_cast<uint32_t>(things.size());
+    const Quads results = kernel.run({input}, gpu::CountParams{count}, count, count);
+    size_t wrong = 0;
+    for (size_t i = 0; i < things.size(); ++i) {
+        const uint64_t k = things[i].x, kept = things[i].y, n = things[i].z;
+        wrong += results[i].x != k * kept / n;
+        wrong += (results[i].y == 1) != reference::evenPlace(k, kept, n).has_value();
+    }
+    CHECK(wrong == 0);
 }
 
 TEST_CASE("channels of next to no reflectance have nothing to learn, whatever was gathered") {
@@ -362,7 +429,7 @@ TEST_CASE("planted: records that are exchanged, not demodulated, not scaled, or 
     REQUIRE(wrongRows(written, paths, total, true, 2.0) == 0);
     CHECK(wrongRows(written, paths, total, false, 2.0) > total / 2);
     CHECK(wrongRows(written, paths, total, true, 1.0) > total / 2);
-    CHECK(wrongRows(written, paths, total - 1, true, 2.0) == 1);
+    CHECK(wrongRows(written, paths, total - 1, true, 2.0) > 0);
     std::vector<TrainingPath> other = paths;
     auto& vertices = std::find_if(other.begin(), other.end(), [](const TrainingPath& p) {
                          return p.vertices.size() > 4;
@@ -375,24 +442,23 @@ TEST_CASE("planted: records that are exchanged, not demodulated, not scaled, or 
 
 namespace {
 
-CacheOptions smallCache() {
-    CacheOptions options;
+NeuralCacheOptions smallCache() {
+    NeuralCacheOptions options;
     options.model = nrcPreset("fast").model;
-    options.queries = options.trainingPaths = 256;
-    options.records = 1024;
     options.steps = 2;
     return options;
 }
+constexpr CacheRoom kRoom{256, 256, 1024};
 
 // A frame whose training paths are given.
-void learn(Device& device, RadianceCache& cache, const std::vector<TrainingPath>& paths) {
+void learn(Device& device, NeuralCache& cache, const std::vector<TrainingPath>& paths) {
     FrameGraph graph(device);
     cache.begin(graph);
     graph.execute();
     const TrainingBuffers packed = packPaths(paths);
-    upload<glm::uvec4>(device, cache.trainingPaths(), packed.paths);
-    upload<glm::uvec4>(device, cache.trainingVertices(), packed.vertices);
-    upload<glm::uvec4>(device, *cache.trainingQueries().buffer, packed.queries);
+    upload<glm::uvec4>(device, *cache.tap().trainingPaths.buffer, packed.paths);
+    upload<glm::uvec4>(device, *cache.tap().trainingVertices.buffer, packed.vertices);
+    upload<glm::uvec4>(device, *cache.tap().trainingQueries.buffer, packed.queries);
     cache.learn(graph, static_cast<uint32_t>(paths.size()));
     graph.execute();
 }
@@ -405,7 +471,7 @@ bool isFinite(const std::vector<float>& values) {
 
 TEST_CASE("bad radiance in training vertices is dropped and counted, and everything stays finite") {
     Device& device = deviceWith(RecordAccess::Texel);
-    RadianceCache cache(device, smallCache());
+    NeuralCache cache(device, smallCache(), kRoom);
     Random random(41);
     uint32_t dropped = 0, records = 0;
     for (int frame = 0; frame < 6; ++frame) {

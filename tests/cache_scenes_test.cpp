@@ -32,16 +32,12 @@ Recorded record(const Scene& scene, const GpuScene& gpu, const Camera& camera, f
     PathTracerOptions options;
     options.width = options.height = 64;
     options.maxBounces = 12;
-    const uint32_t tiles = surfacePaths > 0 ? 1 : 64;
-    OracleCache oracle(validatedDevice(), options, 0.5f, tiles, tiles, surfacePaths);
-    const Bounds bounds = sceneBounds(scene);
-    const glm::vec3 extent = bounds.upper - bounds.lower;
-    const float longest = std::max({extent.x, extent.y, extent.z}), slack = 1e-4f * longest;
-    gpu::CacheRule& rule = oracle.rule();
-    rule.boxLow = glm::vec4(bounds.lower - slack, 1.0f / (longest * 1.0002f));
-    rule.boxHigh = glm::vec4(bounds.upper + slack, spread);
-    rule.trainingSpread = spread;
-    oracle.render(gpu, camera, 1);
+    const bool fromSurfaces = surfacePaths > 0;
+    NrcOptions asked = oracleOptions(options, 0.5f, fromSurfaces ? surfacePaths : 64 * 64, fromSurfaces);
+    asked.config.spread = asked.config.trainingSpread = spread;
+    OracleRenderer oracle(validatedDevice(), gpu, sceneBounds(scene), asked);
+    oracle.render(camera, 1);
+    const gpu::CacheRule rule = oracle.rule();
     Recorded recorded;
     recorded.rule = rule;
     recorded.settings.box = {Vec3(rule.boxLow), Vec3(rule.boxHigh), double(rule.boxLow.w)};
@@ -205,7 +201,7 @@ TEST_CASE("traced paths ask and end where the spread rule says") {
 TEST_CASE("paths from surfaces end where the spread rule says, as seen from the distance they are given") {
     const Scene scene = lambertBox();
     const GpuScene gpu = toGpu(scene);
-    constexpr float kDistance = OracleCache::kSurfaceDistance;
+    constexpr float kDistance = 4.0f / 3.0f; // mean chord of the box of edge 2: 4 V / S
     for (const float spread : {0.01f, 10.0f, 100.0f}) {
         const Recorded recorded = record(scene, gpu, kCamera, spread, 4095);
         // The first vertex plays the primary vertex: as if the path asked there.

@@ -108,14 +108,16 @@ TEST_CASE("wrong usage is one sentence and 64") {
 
 TEST_CASE("options of another method are refused by name, whatever their value") {
     for (const std::string option : {"--preset balanced", "--network a.json", "--warmup 0", "--warmup 8",
-                                     "--view prediction", "--view bounce-heat"}) {
-        const std::string name = option.starts_with("--view") ? option : option.substr(0, option.find(' '));
+                                     "--view prediction", "--view bounce-heat", "--form subgroup"}) {
+        const std::string name = option.starts_with("--view") || option.starts_with("--form")
+                                     ? option
+                                     : option.substr(0, option.find(' '));
         checkRefused("render scene.glb -o a.exr --method pt " + option, 64,
-                     name + " is for the methods with a cache; --method pt has none");
+                     name + " is for the methods nrc, cache-view; --method pt has none");
     }
     checkRefused("bench frame scene.glb --method pt --preset fast", 64, "--method pt has none");
     checkRefused("render scene.glb -o a.exr --method none --preset fast", 64,
-                 "there are pt, nrc and cache-view");
+                 "there are pt, nrc, cache-view");
     // Those of its own it takes: what is missing is the scene.
     checkRefused("render scene.glb -o a.exr --method pt --view error-sign --reference b.exr", 66, "b.exr");
     checkRefused("render scene.glb -o a.exr --method nrc --preset fast --warmup 8", 66, "scene.glb");

@@ -44,6 +44,7 @@ constexpr std::array kRooms{
     Room{"samples/yardsticks/textbook/", 2}, // kernels
     Room{"samples/yardsticks/", 7},          // what the benchmarks compare with
     Room{"samples/support/", 7},             // what the programs share
+    Room{"samples/session/", 8},             // a renderer without a command line
     Room{"samples/irradia/", 9},
     Room{"samples/embed/", 9},
     Room{"samples/fit_image/pixels/", 2}, // kernels

@@ -220,9 +220,10 @@ TEST_CASE("as radiance a prediction below zero is none, for pictures and for "
         std::vector<glm::vec3> picture, targets;
     };
     const auto seenWith = [&](float radiance) {
-        OracleCache oracle(validatedDevice(), options, radiance, 32, 32);
-        oracle.rule().boxHigh.w = oracle.rule().trainingSpread = 0.01f;
-        Seen seen{oracle.render(gpu, scene.cameras[0], 1).mean, {}};
+        NrcOptions asked = oracleOptions(options, radiance, 32 * 32);
+        asked.config.spread = asked.config.trainingSpread = 0.01f;
+        OracleRenderer oracle(validatedDevice(), gpu, sceneBounds(scene), asked);
+        Seen seen{oracle.render(scene.cameras[0], 1).mean, {}};
         seen.targets = oracle.targets();
         return seen;
     };

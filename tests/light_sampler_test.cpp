@@ -13,6 +13,10 @@ using namespace irradia;
 
 namespace {
 
+Device& device() {
+    return test::deviceWith(RecordAccess::Texel);
+}
+
 // tests/shaders/uniform_lights.
 const VertexKernels kUniformLights{&kernels::handle_escaped_rays_uniform_lights,
                                    &kernels::handle_emissive_hits_uniform_lights,
@@ -44,7 +48,7 @@ PathTracerOptions options() {
 
 TEST_CASE("a light sampler is a file: lights chosen uniformly give the same picture, with other noise") {
     Lit lit;
-    test::GpuRenderer renderer(test::validatedDevice(), lit.scene);
+    test::GpuRenderer renderer(device(), lit.scene);
     PathTracerOptions uniform = options();
     uniform.kernels = kUniformLights;
     uniform.seed = 2; // independent of the other
@@ -64,5 +68,5 @@ TEST_CASE("a light sampler is a file: lights chosen uniformly give the same pict
     uniform.kernels.scatter = &kernels::scatter;
     const FilmImage mixed = renderer.render(lit.camera, uniform, 64);
     CHECK_FALSE(reference::zTest(test::toEstimate(mixed), test::toEstimate(shipped)).accepted());
-    CHECK(test::validatedDevice().validationMessages() == 0);
+    CHECK(device().validationMessages() == 0);
 }

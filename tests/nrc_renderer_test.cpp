@@ -4,6 +4,7 @@
 #include "engine/scene/load_scene.h"
 #include "nrc/renderer/nrc_renderer.h"
 #include "tests/reference/z_test.h"
+#include "tests/support/cached_scene.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/gpu_render.h"
 #include "tests/support/validated_device.h"
@@ -140,11 +141,11 @@ Trained train(const GpuScene& scene, float uniformShare) {
     training.config.uniformShare = uniformShare;
     NrcRenderer renderer(device(), scene, cornell().bounds, training);
     for (uint32_t i = 0; i < 16; ++i) renderer.renderFrame(cornell().camera, i);
-    Trained trained{renderer.tracer().readFilm().mean, renderer.cache().trainer().parameters(Weights::Raw),
+    Trained trained{renderer.tracer().readFilm().mean, trainerOf(renderer).parameters(Weights::Raw),
                     renderer.counts().records};
     renderer.setLearning(false);
     renderer.renderFrame(cornell().camera, 16);
-    const bool isAsItWas = renderer.cache().trainer().parameters(Weights::Raw) == trained.weights;
+    const bool isAsItWas = trainerOf(renderer).parameters(Weights::Raw) == trained.weights;
     CHECK(isAsItWas);
     return trained;
 }

@@ -3,6 +3,7 @@
 // the mean 1 - 2^-(B + 2) in every pixel, and a cache that has learned 1.
 #include "engine/error.h"
 #include "engine/scene/load_scene.h"
+#include "nrc/renderer/nrc_methods.h"
 #include "nrc/renderer/picture_memory.h"
 #include "tests/reference/random.h"
 #include "tests/support/cached_scene.h"
@@ -114,7 +115,7 @@ TEST_CASE("a picture that does not fit is refused with the largest of its shape 
     const NrcOptions options = optionsOf(16384, 8192);
     std::string sentence;
     try {
-        requireRoomForPicture(little, options, true);
+        requireRoomForPicture(little, NrcSetup(options));
     } catch (const Error& error) {
         CHECK(error.code() == ExitCode::OutOfMemory);
         sentence = error.what();
@@ -124,9 +125,9 @@ TEST_CASE("a picture that does not fit is refused with the largest of its shape 
     REQUIRE(at != std::string::npos);
     REQUIRE(std::sscanf(sentence.c_str() + at, "fits is %ux%u", &width, &height) == 2);
     CHECK(std::abs(width - 2.0 * height) <= 2.0);
-    requireRoomForPicture(little, optionsOf(width, height), true);
+    requireRoomForPicture(little, NrcSetup(optionsOf(width, height)));
     expectError(ExitCode::OutOfMemory, "", [&] {
-        requireRoomForPicture(little, optionsOf(width + width / 50, height + height / 50), true);
+        requireRoomForPicture(little, NrcSetup(optionsOf(width + width / 50, height + height / 50)));
     });
 }
 
@@ -166,7 +167,7 @@ TEST_CASE("pictures of a dozen sizes are right by path tracing and with a cache"
                 // A frame that asks the cache, right or not: the last wave's paths end in it.
                 renderer.setWarmingUp(true);
                 renderer.renderFrame(camera, 1);
-                const BufferRange counters = renderer.cache().counters();
+                const BufferRange counters = renderer.cache().tap().counters;
                 CHECK(download<uint32_t>(device(), *counters.buffer, 1, gpu::kQueryCounter * 4).front() > 0);
                 CHECK(std::isfinite(meanOf(renderer.tracer().readFilm())));
             }

@@ -213,7 +213,7 @@ TEST_CASE("being looked at changes nothing that the cache learns") {
     const auto weights = [&](uint32_t view) {
         CachedScene cached(device(), scene, viewed(view, 4, 0.01f));
         cached.learn(scene.cameras[0], 4);
-        return cached.renderer().cache().trainer().parameters(Weights::Raw);
+        return trainerOf(cached.renderer()).parameters(Weights::Raw);
     };
     const auto unseen = weights(gpu::kViewPicture);
     for (const uint32_t view : {gpu::kViewEndVertex, gpu::kViewTrainingDensity}) {

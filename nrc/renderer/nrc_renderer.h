@@ -1,11 +1,14 @@
-// Rendering with a neural radiance cache (Müller 2021): paths end early in the cache, which learns from a few
-// of them while frames are rendered.
+// Rendering with a radiance cache (Müller 2021): paths end early in the cache, which learns from a few of
+// them while frames are rendered.
 #pragma once
 
-#include "nrc/cache/radiance_cache.h"
-#include "nrc/learning/batch_rows.h"
-#include "nrc/renderer/cache_tap.h"
+#include "engine/path/wavefront_path_tracer.h"
+#include "nrc/cache/cache.h"
 #include "nrc/renderer/nrc_config.h"
+#include "nrc/renderer/renderer.h"
+#include "nrc/samplers/surface_paths.h"
+#include "nrc/samplers/tile_paths.h"
+#include <optional>
 
 namespace irradia {
 
@@ -13,9 +16,10 @@ struct NrcOptions {
     PathTracerOptions paths;
     NrcConfig config;
     uint64_t seed = 1;
+    std::optional<CacheKind> cache; // instead of the network that `config` describes
 };
 
-class NrcRenderer {
+class NrcRenderer : public Renderer {
 public:
     // `bounds`: the box in which the cache is asked, normally sceneBox's.
     NrcRenderer(Device& device, const GpuScene& scene, const Bounds& bounds, const NrcOptions& options,
@@ -25,51 +29,46 @@ public:
     static std::vector<Device::PlannedBuffer> planned(bool isCpu, const VkPhysicalDeviceLimits& limits,
                                                       const NrcOptions& options);
 
-    // Adds a frame to the film and learns from it. `index` numbers it for the random numbers.
-    void renderFrame(const Camera& camera, uint32_t index);
-    void forgetFilm(); // what follows is averaged anew; what was learned stays
+    void renderFrame(const Camera& camera, uint32_t index) override; // and learns from it
+    void forgetFilm() override;
+    FilmImage readFilm() const override { return tracer_.readFilm(); }
+    RendererStatistics statistics() const override;
+    std::map<std::string, std::string> attributes() const override;
 
     void setLearning(bool learns) { learns_ = learns; } // false: the cache stays as it is
     // true: the frames that follow are not looked at, and show the cache before it knows anything. Otherwise
     // paths go on as the path tracer's until it has learned.
-    void setWarmingUp(bool warmsUp) { isWarmingUp_ = warmsUp; }
+    void setWarmingUp(bool warmsUp) override { isWarmingUp_ = warmsUp; }
 
     const WavefrontPathTracer& tracer() const { return tracer_; }
-    RadianceCache& cache() { return cache_; }
+    Cache& cache() { return *cache_; }
     const CacheCounts& counts() const { return counts_; } // of the last frame
     const Adaptation& adaptation() const { return adaptation_; }
     // Frames of the film whose paths went on as the path tracer's, since the cache knew nothing.
     uint32_t framesWithoutCache() const { return framesWithoutCache_; }
+    // Where paths end in the next frame, with all of its training paths.
+    gpu::CacheRule rule() const;
+    // Numbered in this order: one a tile of the picture, those through the camera and from the scene's
+    // surfaces that are not seen.
+    uint32_t trainingPaths() const { return tiles_.tiles() + tiles_.unseen() + surfaces_.count(); }
 
 private:
-    // Training paths of a frame, numbered in this order: one a tile of the picture, those through the camera
-    // and from the scene's surfaces that are not seen.
-    struct TrainingPaths {
-        uint32_t tilesX = 0, tilesY = 0, camera = 0, surfaces = 0;
-        uint32_t tiles() const { return tilesX * tilesY; }
-        uint32_t count() const { return tiles() + camera + surfaces; }
-    };
-
     void learn();
-    TrainingPaths wantedPaths() const;
-    RowRange tilesOf(const Wave& wave) const;
+    void chooseTrainingPaths();
     bool isShown() const;
-    gpu::CacheRule rule() const;
-    CachePaths cachePaths(const Wave& wave) const;
-    CachePaths unseenPaths(const Wave& wave, uint32_t firstTraining) const;
-    CachePaths bound(gpu::CacheRule rule, const RowRange& training) const;
+    PathTap tapOf(const Wave& wave);
 
     NrcOptions options_;
     Bounds bounds_;
     WavefrontPathTracer tracer_;
-    CacheTap tap_;
-    uint32_t mostTraining_; // paths of a wave at most, whose vertices one binding holds
-    RadianceCache cache_;
+    CacheListener listener_;
+    std::unique_ptr<Cache> cache_;
     CacheCounts counts_;
     Adaptation adaptation_;
     bool hasSurfaces_;
+    TilePaths tiles_;             // of this frame
+    SurfacePaths surfaces_;       // likewise
     double recordsPerPath_ = 4.0; // of the last frame's training paths
-    TrainingPaths training_;      // of this frame
     bool learns_ = true;
     bool isWarmingUp_ = false;
     uint32_t framesWithoutCache_ = 0;

@@ -4,8 +4,10 @@
 #include "engine/error.h"
 #include "frame_stats.h"
 #include "methods.h"
+#include "request_options.h"
 #include "samples/support/interrupt.h"
 #include "samples/support/numbers.h"
+#include "samples/support/outputs.h"
 
 namespace irradia {
 
@@ -17,9 +19,10 @@ struct BenchFrameOptions {
     std::string json;
 };
 
-void benchFrame(const BenchFrameOptions& options) {
+void benchFrame(BenchFrameOptions options) {
     checkOutputs({{"--json", options.json}}, inputFiles(options.request));
     catchInterrupts();
+    options.request.betweenSteps = stopIfInterrupted;
     RenderSession session(options.request);
     requireApart({{"--json", options.json}}, session.inputs());
     // Frames of a warm-up ask the cache before it knows anything, as all do later. The first compile the
@@ -38,7 +41,7 @@ void benchFrame(const BenchFrameOptions& options) {
 
 void addBenchFrame(CLI::App& bench) {
     auto options = std::make_shared<BenchFrameOptions>();
-    options->request.size = "256x256";
+    options->request.size = {256, 256};
     CLI::App* command = bench.add_subcommand("frame", "Time of every pass of a frame, median and p90");
     addRequestOptions(*command, options->request);
     addWhole(*command, "--frames", options->frames, "Frames to time, after two that are not", 1, 100000)

@@ -4,6 +4,8 @@
 #include "bench_tools.h"
 #include "commands.h"
 #include "engine/error.h"
+#include "request_options.h"
+#include "samples/session/kernel_form.h"
 #include "samples/support/interrupt.h"
 #include "samples/support/numbers.h"
 #include "samples/support/outputs.h"
@@ -17,7 +19,6 @@ namespace {
 struct BenchMlpOptions {
     std::vector<std::string> shapes;
     uint32_t inputs = 0;
-    std::string form = "both";
     std::string precision = "both";
     std::string mode = "both";
     uint32_t rowsPerLane = 0;
@@ -29,7 +30,7 @@ struct BenchMlpOptions {
     bool compileTimes = false;
     std::string json;
     DeviceOptions device;
-    std::string records = "auto";
+    std::string form = "auto";
 };
 
 constexpr uint32_t kQuickRounds = 3;
@@ -66,8 +67,8 @@ std::vector<MlpShape> shapesOf(const BenchMlpOptions& options) {
 }
 
 std::vector<NetworkForm> formsOf(const BenchMlpOptions& options) {
-    if (options.form == "subgroup") return {NetworkForm::Subgroup};
-    if (options.form == "workgroup") return {NetworkForm::Workgroup};
+    const NetworkForm form = kernelForm(options.form).network;
+    if (form != NetworkForm::Auto) return {form};
     return {NetworkForm::Subgroup, NetworkForm::Workgroup};
 }
 
@@ -101,8 +102,7 @@ void compileTimes(const BenchMlpOptions& options, const std::vector<MlpGroup>& g
 }
 
 void benchMlp(BenchMlpOptions options) {
-    if (options.records != "auto")
-        options.device.records = options.records == "texel" ? RecordAccess::Texel : RecordAccess::Storage;
+    options.device.records = kernelForm(options.form).access;
     if (options.isQuick) options.rounds = std::min(options.rounds, kQuickRounds);
     const std::vector<MlpGroup> groups = groupsOf(options);
     checkOutputs({{"--json", options.json}}, {});
@@ -140,7 +140,6 @@ void addCaseOptions(CLI::App& command, BenchMlpOptions& options) {
             ->group("Networks")
             ->capture_default_str();
     };
-    choice("--form", options.form, "Of the kernels", {"both", "subgroup", "workgroup"});
     choice("--precision", options.precision, "Of weights and activations", {"both", "float", "half"});
     choice("--mode", options.mode, "What is timed", {"both", "inference", "training"});
     addWhole(command, "--rows-per-lane", options.rowsPerLane,
@@ -181,9 +180,10 @@ void addBenchMlp(CLI::App& bench) {
     addOutput(*command, "--json", options->json, "File for the numbers, - for stdout")->group("Output");
     command->add_option("--device", options->device.select, "Index, name, cpu or gpu")->group("Device");
     addSubgroup(*command, options->device.subgroupSize)->group("Device");
-    command->add_option("--records", options->records, "Form of the kernels' records: auto, texel or storage")
-        ->check(CLI::IsMember({"auto", "texel", "storage"}))
-        ->group("Device");
+    addForm(
+        *command, options->form, kernelFormNames(),
+        "Of the kernels: texel or storage (how they read queues), subgroup or workgroup (how they compute "
+        "networks; both are timed unless one is named), or auto");
     command->callback([options] { benchMlp(*options); });
 }
 

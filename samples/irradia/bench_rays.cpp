@@ -8,7 +8,8 @@
 #include "engine/scene/bvh/bvh.h"
 #include "engine/scene/load_scene.h"
 #include "kernels/path.h"
-#include "render_session.h"
+#include "request_options.h"
+#include "samples/session/kernel_form.h"
 #include "samples/support/interrupt.h"
 #include "samples/support/numbers.h"
 #include "samples/support/outputs.h"
@@ -34,7 +35,7 @@ struct BenchRaysOptions {
     uint32_t rounds = 15;
     std::string json;
     DeviceOptions device;
-    std::string records = "auto";
+    std::string form = "auto";
 };
 
 // One set of rays in buffers, and the kernel that traces it.
@@ -164,8 +165,7 @@ nlohmann::ordered_json jsonOf(const std::vector<RayKind*>& kinds, const Device& 
 
 void benchRays(BenchRaysOptions options) {
     const glm::uvec2 size = parseSize(options.size);
-    if (options.records != "auto")
-        options.device.records = options.records == "texel" ? RecordAccess::Texel : RecordAccess::Storage;
+    options.device.records = kernelForm(options.form).access;
     checkOutputs({{"--json", options.json}}, {{"the scene", options.scene}, {"the camera", options.camera}});
     catchInterrupts();
     const Scene scene = loadScene(sceneFile(options));
@@ -217,9 +217,8 @@ void addBenchRays(CLI::App& bench) {
     addOutput(*command, "--json", options->json, "File for the numbers, - for stdout");
     command->add_option("--device", options->device.select, "Index, name, cpu or gpu")->group("Device");
     addSubgroup(*command, options->device.subgroupSize)->group("Device");
-    command->add_option("--records", options->records, "Form of the kernels: auto, texel or storage")
-        ->check(CLI::IsMember({"auto", "texel", "storage"}))
-        ->group("Device");
+    addForm(*command, options->form, {"auto", "texel", "storage"},
+            "Of the kernels, how they read queues: texel, storage or auto");
     command->callback([options] { benchRays(*options); });
 }
 

@@ -17,6 +17,7 @@ nlohmann::ordered_json frameStats(RenderSession& session) {
         column += row.p50;
         passes.push_back({{"name", row.name}, {"p50", row.p50}, {"p90", row.p90}, {"runs", row.runs}});
     }
+    const RendererStatistics statistics = session.statistics();
     const double paths = double(session.size().x) * session.size().y * session.request().samplesPerFrame;
     return {{"scene", session.scene().name},
             {"method", session.request().method},
@@ -33,9 +34,9 @@ nlohmann::ordered_json frameStats(RenderSession& session) {
               {"other", wall.p50 - traceShade - query - train},
               {"total", wall.p50},
               {"total_p90", wall.p90}}},
-            {"rays", session.tracer().raysTraced()},
+            {"rays", statistics.rays},
             {"paths_per_second", wall.p50 > 0 ? paths / wall.p50 * 1e3 : 0.0},
-            {"records", session.nrc() ? session.nrc()->counts().records : 0},
+            {"records", statistics.records},
             {"memory_bytes", session.device().memoryUsed()},
             {"passes", passes}};
 }

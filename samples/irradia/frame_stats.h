@@ -1,7 +1,7 @@
 // The time of frames as programs read it: the columns of the papers' cost table and every pass.
 #pragma once
 
-#include "render_session.h"
+#include "samples/session/render_session.h"
 #include <nlohmann/json.hpp>
 
 namespace irradia {

@@ -5,9 +5,11 @@
 #include "methods.h"
 #include "render_frames.h"
 #include "render_outputs.h"
+#include "request_options.h"
 #include "samples/support/interrupt.h"
 #include "samples/support/numbers.h"
 #include "samples/support/progress.h"
+#include <fmt/ranges.h>
 
 namespace irradia {
 
@@ -22,15 +24,7 @@ struct RenderOptions {
     std::string progress = "auto";
 };
 
-constexpr uint32_t kCacheWarmup = 64;
 constexpr uint32_t kMostWarmup = 1'000'000;
-
-// What is indirect, the cache is asked for; without it there is nothing to ask, unless it is asked for by
-// name.
-std::string chooseMethod(const RenderRequest& request, const CLI::App& command) {
-    if (!request.method.empty()) return request.method;
-    return request.maxBounces == 0 && optionOfCaches(command).empty() ? "pt" : "nrc";
-}
 
 FramePlan planFrames(const RenderOptions& options) {
     FramePlan plan = parseFrames(options.frames.empty() ? "1" : options.frames);
@@ -38,7 +32,7 @@ FramePlan planFrames(const RenderOptions& options) {
         plan.seconds = options.seconds;
         if (options.frames.empty()) plan.end = UINT32_MAX;
     }
-    plan.warmup = options.warmup.value_or(methodHasCache(options.request.method) ? kCacheWarmup : 0);
+    plan.warmup = options.warmup.value_or(findMethod(options.request.method).warmup);
     requireOwnSamples(plan, options.request.samplesPerFrame);
     return plan;
 }
@@ -47,11 +41,13 @@ FramePlan planFrames(const RenderOptions& options) {
 std::string headingOf(const RenderOptions& options, const FramePlan& plan) {
     const RenderRequest& request = options.request;
     std::string text = "render: method " + request.method;
-    if (methodHasCache(request.method)) text += fmt::format(", preset {}", request.preset);
+    for (const MethodOption& option : findMethod(request.method).options)
+        if (const std::string& value = valueOf(request.methodOptions, option); !value.empty())
+            text += fmt::format(", {} {}", option.name, value);
     text += fmt::format(", warm-up {}", plan.warmup);
     if (plan.end != UINT32_MAX) text += fmt::format(", frames {}-{}", plan.first, plan.end);
     if (std::isfinite(plan.seconds)) text += fmt::format(", time {:g} s", plan.seconds);
-    return text + fmt::format(", size {}", request.size);
+    return text + fmt::format(", size {}", sizeText(request.size));
 }
 
 void render(RenderOptions options) {
@@ -61,6 +57,7 @@ void render(RenderOptions options) {
     if (plan.end != UINT32_MAX) options.request.endFrame = plan.end;
     options.outputs.check(options.request);
     catchInterrupts();
+    options.request.betweenSteps = stopIfInterrupted;
     RenderSession session(options.request);
     requireApart(options.outputs.files(), session.inputs());
     const RenderedFrames run = renderFrames(session, plan, options.progress, !options.outputs.stats.empty());
@@ -70,6 +67,14 @@ void render(RenderOptions options) {
     if (session.device().validationMessages() > 0)
         fail(ExitCode::Internal, "{} validation messages", session.device().validationMessages());
     endIfInterrupted(run.end - run.first, "frames");
+}
+
+// "0 of pt, 64 of nrc, ..."
+std::string warmups() {
+    std::vector<std::string> texts;
+    for (const std::string& name : methodNames())
+        texts.push_back(fmt::format("{} of {}", findMethod(name).warmup, name));
+    return fmt::format("{}", fmt::join(texts, ", "));
 }
 
 void addFrameOptions(CLI::App& command, RenderOptions& options) {
@@ -91,7 +96,7 @@ void addFrameOptions(CLI::App& command, RenderOptions& options) {
                     "Frames before these, which train but are not averaged; half of --time at most")
         ->type_name("N")
         ->group("Frames")
-        ->default_str(fmt::format("{}, 0 for pt", kCacheWarmup));
+        ->default_str("the method's: " + warmups());
     command
         .add_option(
             "--changes", options.request.changes,
@@ -110,14 +115,17 @@ void addRender(CLI::App& program) {
     options->request.method.clear();
     CLI::App* command = program.add_subcommand("render", "Render frames of a scene, headless");
     addRequestOptions(*command, options->request);
-    command->get_option("--method")->default_str("nrc; pt where --max-bounces 0 leaves nothing to the cache");
+    command->get_option("--method")
+        ->default_str(fmt::format("{}; {} where --max-bounces 0 leaves nothing to a cache",
+                                  usualMethod(1).name, usualMethod(0).name));
     options->outputs.addOptions(*command);
     command->add_flag("--aov", options->request.surfaces, "Add albedo, normal, position and depth layers")
         ->group("Output");
     addFrameOptions(*command, *options);
     addProgressOption(*command, options->progress);
     command->callback([options, command] {
-        options->request.method = chooseMethod(options->request, *command);
+        options->request.method =
+            chooseMethod(options->request.method, options->request.maxBounces, *command);
         requireOptionsOf(options->request.method, *command);
         render(*options);
     });

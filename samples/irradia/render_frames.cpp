@@ -54,14 +54,13 @@ uint32_t warmUp(RenderSession& session, const FramePlan& plan, const std::string
 }
 
 FrameNote noteOf(RenderSession& session, uint32_t frames, double seconds) {
-    const FilmImage film = session.tracer().readFilm(); // not as a view paints it
+    const FilmImage film = session.readRawFilm();
     FrameNote note{frames, seconds, 0.0, std::nullopt, 0};
     for (const glm::vec3& pixel : film.mean) note.mean += luminance(pixel);
     note.mean /= static_cast<double>(film.mean.size());
-    if (session.nrc()) {
-        note.loss = session.nrc()->counts().training.loss;
-        note.records = session.nrc()->counts().records;
-    }
+    const RendererStatistics statistics = session.statistics();
+    note.loss = statistics.loss;
+    note.records = statistics.records;
     return note;
 }
 
@@ -111,9 +110,9 @@ RenderedFrames renderFrames(RenderSession& session, const FramePlan& plan, const
     }
     meter.finish();
     run.seconds = clock.seconds();
-    if (session.nrc() && session.nrc()->framesWithoutCache() > 0)
-        logLine("{} of {} frames were path traced: the cache had not learned yet",
-                session.nrc()->framesWithoutCache(), run.end - run.first);
+    if (const uint32_t without = session.statistics().framesWithoutCache; without > 0)
+        logLine("{} of {} frames were path traced: the cache had not learned yet", without,
+                run.end - run.first);
     if (run.endedBy == "time" && plan.end != UINT32_MAX)
         logLine("time: {} of {} frames in the {:g} s", run.end - run.first, plan.end - plan.first,
                 plan.seconds);

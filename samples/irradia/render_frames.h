@@ -2,7 +2,7 @@
 // them.
 #pragma once
 
-#include "render_session.h"
+#include "samples/session/render_session.h"
 #include <limits>
 #include <optional>
 

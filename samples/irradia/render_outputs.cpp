@@ -5,6 +5,8 @@
 #include "engine/scene/camera_matrices.h"
 #include "frame_stats.h"
 #include "methods.h"
+#include "request_options.h"
+#include "samples/session/kernel_form.h"
 #include "samples/support/numbers.h"
 #include "samples/support/standard_streams.h"
 #include <algorithm>
@@ -57,7 +59,7 @@ void describe(LayeredImage& image, RenderSession& session, uint32_t frames, cons
     a["irradia.device"] = session.device().description().name;
     a["irradia.driver"] = session.device().description().driver;
     a["irradia.subgroupSize"] = std::to_string(session.device().subgroupSize());
-    a["irradia.recordAccess"] = session.device().texelRecords() ? "texel" : "storage";
+    a["irradia.quadAccess"] = accessName(session.device());
     a["irradia.scene"] = session.scene().name;
     a["irradia.sceneHash"] = fmt::format("{:016x}", session.scene().contentHash);
     a["irradia.method"] = request.method;
@@ -68,15 +70,11 @@ void describe(LayeredImage& image, RenderSession& session, uint32_t frames, cons
     a["irradia.options"] =
         fmt::format("--size {} --spp {} --max-bounces {} --camera '{}' --env '{}' --changes '{}' --view '{}' "
                     "--reference '{}'",
-                    request.size, request.samplesPerFrame, request.maxBounces, request.camera,
+                    sizeText(request.size), request.samplesPerFrame, request.maxBounces, request.camera,
                     request.environment, request.changes, request.view, request.reference);
-    if (!session.nrc()) return;
-    RadianceCache& cache = session.nrc()->cache();
-    a["irradia.cache"] =
-        fmt::format("--preset '{}' --network '{}' --warmup {}", request.preset, request.network, run.warmup);
-    a["irradia.preset"] = toJson(session.preset());
-    a["irradia.model"] = toJson(cache.trainer().config());
-    a["irradia.trainingSteps"] = std::to_string(session.nrc()->counts().training.steps);
+    if (!session.method().options.empty())
+        a["irradia.methodOptions"] = optionsText(session.method(), request.methodOptions);
+    for (const auto& [name, text] : session.attributes()) a["irradia." + name] = text;
 }
 
 // "A-B", or "A-" where only the time ends them.
@@ -88,7 +86,7 @@ nlohmann::ordered_json optionsOf(const RenderRequest& request, const FramePlan& 
                                  const DisplayOptions& display) {
     nlohmann::ordered_json options{{"scene", request.scene},
                                    {"method", request.method},
-                                   {"size", request.size},
+                                   {"size", sizeText(request.size)},
                                    {"spp", request.samplesPerFrame},
                                    {"max_bounces", request.maxBounces},
                                    {"seed", request.seed},
@@ -103,13 +101,11 @@ nlohmann::ordered_json optionsOf(const RenderRequest& request, const FramePlan& 
                                    {"aov", request.surfaces},
                                    {"device", request.device.select},
                                    {"subgroup", request.device.subgroupSize},
-                                   {"records", request.records},
+                                   {"form", request.form},
                                    {"exposure", display.exposure},
                                    {"tonemap", kToneMapNames[static_cast<size_t>(display.toneMap)]}};
-    if (methodHasCache(request.method)) {
-        options["preset"] = request.preset;
-        options["network"] = request.network;
-    }
+    for (const MethodOption& option : findMethod(request.method).options)
+        options[option.name] = valueOf(request.methodOptions, option);
     return options;
 }
 
@@ -127,7 +123,7 @@ void writeStats(const std::string& file, RenderSession& session, const FramePlan
                 const RenderedFrames& run, const DisplayOptions& display) {
     nlohmann::ordered_json stats = frameStats(session);
     stats["warmup_frames"] = run.warmup;
-    stats["frames_without_cache"] = session.nrc() ? session.nrc()->framesWithoutCache() : 0;
+    stats["frames_without_cache"] = session.statistics().framesWithoutCache;
     stats["seconds"] = run.seconds;
     stats["ended_by"] = run.endedBy;
     stats["history"] = historyOf(run);

@@ -2,17 +2,13 @@
 // an input nor another output, by whatever path or link it is named.
 #pragma once
 
+#include "samples/support/named_file.h"
 #include <CLI/CLI.hpp>
 #include <initializer_list>
 #include <string>
 #include <vector>
 
 namespace irradia {
-
-struct NamedFile {
-    std::string name; // what errors call it: "--png", "the scene"
-    std::string file; // empty: not asked for
-};
 
 // An option whose name of a file may not be empty.
 CLI::Option* addOutput(CLI::App& command, const std::string& name, std::string& file,

@@ -1,6 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Training vertices as records for the trainer, side by side.
+// Training vertices as records for the trainer, side by side; of more than there is room for, some spread evenly over them
+// are left out, so that all parts of the picture and all kinds of paths teach.
+#include "lib/even_choice.glsl"
 #include "lib/kernel.glsl"
 #include "shared/cache.h"
 #include "shared/network.h"
@@ -20,6 +22,11 @@ void main() {
     uint vertex = gl_GlobalInvocationID.x % kMaxTrainingVertices;
     if (path >= params.paths || vertex >= loadRecord(pathSums, path).x) return;
     uint record = loadWord(firstRecords, path) + vertex;
+    uint kept = counters[kRecordCounter], wanted = kept + counters[kSkippedRecords];
+    if (kept < wanted) {
+        if (!isEvenlyKept(record, kept, wanted)) return;
+        record = evenPlace(record, kept, wanted);
+    }
     if (record >= params.capacity) return;
     uint at = gl_GlobalInvocationID.x * kTrainingVertexVectors;
     vec4 quads[kCacheInputQuads];

@@ -14,6 +14,7 @@ SHARED_BEGIN
 
 SHARED_CONST uint kCacheInputs = 14u;
 SHARED_CONST uint kCacheInputQuads = 4u;
+SHARED_CONST uint kCacheInputBytes = kCacheInputQuads * 16u; // of a row
 SHARED_CONST uint kCacheOutputs = 3u;
 
 

@@ -149,6 +149,12 @@ Vec3 toTarget(const Vec3& radiance, const Vec3& factor, double scale) {
     return target;
 }
 
+std::optional<uint64_t> evenPlace(uint64_t k, uint64_t kept, uint64_t n) {
+    const uint64_t place = k * kept / n;
+    if ((k + 1) * kept / n == place) return std::nullopt;
+    return place;
+}
+
 std::vector<Vec3> targets(const TrainingPath& path, const Vec3& last) {
     std::vector<Vec3> result(path.vertices.size());
     Vec3 next = last;

@@ -98,6 +98,9 @@ Vec3 toTarget(const Vec3& radiance, const Vec3& factor, double scale); // 0 wher
 // L_s at the vertices; `last` is that of the end in the cache.
 std::vector<Vec3> targets(const TrainingPath& path, const Vec3& last);
 
+// Of records that are more than there is room for, `kept` of n: whether record k is kept, and at which place.
+std::optional<uint64_t> evenPlace(uint64_t k, uint64_t kept, uint64_t n);
+
 struct Brightness {
     double scale = 1.0, rescaling = 1.0, brightness = 0.0, frameBrightness = 0.0, largest = 0.0;
     uint32_t frames = 0;

@@ -31,6 +31,10 @@ struct RngHarnessParams {
     uint count;
 };
 
+struct CountParams {
+    uint count;
+};
+
 struct PermuteParams {
     uint count;
     uint key;

@@ -1,5 +1,6 @@
 #include "tests/support/cached_scene.h"
 
+#include "nrc/cache/neural_cache.h"
 #include "tests/reference/simple_scenes.h"
 
 namespace irradia::test {
@@ -23,6 +24,10 @@ double meanLuminance(const FilmImage& film) {
     double sum = 0.0;
     for (const glm::vec3& pixel : film.mean) sum += luminance(pixel);
     return sum / double(film.mean.size());
+}
+
+Trainer& trainerOf(NrcRenderer& renderer) {
+    return dynamic_cast<NeuralCache&>(renderer.cache()).trainer();
 }
 
 GpuScene uploaded(Device& device, const Scene& scene) {

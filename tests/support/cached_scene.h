@@ -13,6 +13,9 @@ void addRoom(Scene& scene, uint32_t material, const glm::vec3& low, const glm::v
 double luminance(const glm::vec3& colour);
 double meanLuminance(const FilmImage& film);
 
+// Of a renderer whose cache is a network.
+Trainer& trainerOf(NrcRenderer& renderer);
+
 GpuScene uploaded(Device& device, const Scene& scene);
 
 class CachedScene {

@@ -2,44 +2,61 @@
 // records can then be judged by what it must come to.
 #pragma once
 
-#include "nrc/renderer/cache_tap.h"
+#include "nrc/cache/cache_queries.h"
+#include "nrc/cache/radiance_scale.h"
+#include "nrc/cache/training_records.h"
+#include "nrc/renderer/nrc_renderer.h"
 #include "tests/reference/cache.h"
-#include <vector>
+#include <limits>
 
 namespace irradia::test {
 
-class OracleCache {
+class OracleCache : public Cache {
 public:
-    // For pictures of `options`, all of whose pixels are one wave; with one training path a tile, and after
-    // these `surfacePaths` from the surfaces of the scene, seen from kSurfaceDistance.
-    OracleCache(Device& device, const PathTracerOptions& options, float radiance, uint32_t tilesX = 0,
-                uint32_t tilesY = 0, uint32_t surfacePaths = 0);
-    static constexpr float kSurfaceDistance = 1.5f;
+    OracleCache(Device& device, const CacheRoom& room, float radiance);
 
-    gpu::CacheRule& rule() { return rule_; } // never ends paths at first
-    FilmImage render(const GpuScene& scene, const Camera& camera, uint32_t frames);
+    CacheTap tap() const override;
+    void begin(FrameGraph& graph) override { records_.begin(graph); }
+    void beginQueries(FrameGraph& graph) override { queries_.begin(graph); }
+    void answer(FrameGraph& graph, BufferRange radiance) override;
+    // Light goes back along the paths; nothing is learned from it.
+    void learn(FrameGraph& graph, uint32_t paths, const TrainingEffort& effort) override;
+    CacheCounts counts() const override { return {}; }
+
+private:
+    float radiance_;
+    RadianceScale scale_;
+    CacheQueries queries_;
+    PathRecords records_;
+    Buffer predictions_;
+};
+
+CacheKind oracle(float radiance);
+
+// For pictures of `paths` by an oracle: paths never end in it at first, and none trains themselves unless
+// told so. `trainingPaths`: how many a frame has, through the camera or, with `fromSurfaces`, all but one
+// from the scene's surfaces.
+NrcOptions oracleOptions(const PathTracerOptions& paths, float radiance, uint32_t trainingPaths = 1,
+                         bool fromSurfaces = false);
+
+// The renderer of the product, with an oracle.
+class OracleRenderer {
+public:
+    OracleRenderer(Device& device, const GpuScene& scene, const Bounds& bounds, const NrcOptions& options);
+
+    FilmImage render(const Camera& camera, uint32_t frames); // anew, of frames 0 to `frames` - 1
+    gpu::CacheRule rule() const { return renderer_.rule(); }
 
     // Of the last frame: its training paths, gathered light being the targets; the targets at all recorded
-    // vertices; the weights of all queries.
+    // vertices; the weights of all queries of the last wave.
     std::vector<reference::TrainingPath> trainingPaths() const;
     std::vector<glm::vec3> targets() const;
     std::vector<glm::vec3> queryWeights() const;
 
 private:
-    uint32_t pathCount() const { return rule_.tilesX * rule_.tilesY + surfacePaths_; }
-    void answer(WavefrontPathTracer& tracer);
-    void propagate(FrameGraph& graph);
-
     Device& device_;
-    PathTracerOptions options_;
-    float radiance_;
-    uint32_t surfacePaths_;
-    uint64_t pathRows_;
-    gpu::CacheRule rule_{};
+    NrcRenderer renderer_;
     CacheTap tap_;
-    Kernel resolveQueries_, propagateTraining_;
-    Buffer queries_, queryWeights_, predictions_, counters_, state_;
-    Buffer trainingPaths_, trainingVertices_, trainingQueries_, pathSums_;
 };
 
 } // namespace irradia::test

@@ -1,4 +1,4 @@
-#include "scripted_changes.h"
+#include "samples/session/scripted_changes.h"
 
 #include "engine/error.h"
 #include "engine/scene/load_scene.h"

@@ -1,4 +1,4 @@
-#include "views.h"
+#include "samples/session/views.h"
 
 #include "engine/error.h"
 #include "engine/image/metrics.h"
@@ -22,15 +22,9 @@ constexpr View kViews[] = {
 
 } // namespace
 
-void View::applyTo(NrcOptions& options) const {
-    options.paths.view = counted;
-    if (!isFirstHit) return;
-    NrcConfig& config = options.config;
-    if (!reflectance && !config.factorise)
-        fail(ExitCode::Usage, "--view {}: this cache does not factorise its reflectance", name);
-    config.endDepth = 0;
-    config.shown = weights;
-    config.showReflectance = reflectance;
+void View::applyTo(MethodRequest& request) const {
+    request.paths.view = counted;
+    if (isFirstHit) request.firstHit = FirstHitView{name, weights, reflectance};
 }
 
 void View::finish(FilmImage& film, std::span<const glm::vec3> reference) const {

@@ -2,7 +2,8 @@
 #pragma once
 
 #include "engine/image/display.h"
-#include "nrc/renderer/nrc_renderer.h"
+#include "engine/path/film_image.h"
+#include "nrc/renderer/methods.h"
 
 namespace irradia {
 
@@ -17,7 +18,7 @@ struct View {
 
     bool showsNumbers() const { return counted != gpu::kViewPicture || isHeatMap || isErrorSign; }
     bool needsCache() const { return isFirstHit || counted != gpu::kViewPicture; }
-    void applyTo(NrcOptions& options) const;
+    void applyTo(MethodRequest& request) const;
     // Makes the view of what was rendered; `reference` where the view needs one.
     void finish(FilmImage& film, std::span<const glm::vec3> reference) const;
     // For a screen: white is the largest of counts. The options are for radiance, numbers take no others.

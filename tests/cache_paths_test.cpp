@@ -212,8 +212,8 @@ gpu::CacheRule toRule(const CacheSettings& s, float unbiasedShare) {
     rule.endDepth = s.endDepth;
     rule.lastDepth = s.lastDepth;
     rule.deepest = s.deepest;
-    rule.tilesX = rule.width = kPaths; // every path trains
-    rule.tilesY = rule.height = 1;
+    rule.tilesX = kPaths; // every path trains
+    rule.tilesY = 1;
     rule.unbiasedShare = unbiasedShare;
     rule.residualShare = float(s.residualShare);
     rule.trainingSpread = float(s.trainingSpread);
@@ -244,7 +244,7 @@ Walks walkOnDevice(const Paths& paths, const gpu::CacheRule& rule) {
     for (int i = 0; i < 5; ++i) pass.read(scene);
     pass.readWrite(states).readWrite(training).readWrite(vertices);
     pass.write(queries).write(weights).write(ends).readWrite(counters).read(given);
-    pass.push(Push{rule, {kPaths, kDepths, kSample, kSeed}}).dispatch(kPaths);
+    pass.push(Push{rule, {kPaths, kDepths, kSample, kSeed, kPaths}}).dispatch(kPaths);
     graph.execute();
     const auto read = [](const Buffer& buffer) {
         return download<glm::uvec4>(validatedDevice(), buffer, buffer.bytes() / sizeof(glm::uvec4));

@@ -107,7 +107,7 @@ TEST_CASE("hits outside of the cache's box are path traced on") {
     const Scene scene = reference::smallBox();
     NrcOptions options;
     options.paths = picture(64, 0); // to the first vertex' direct light
-    options.paths.surfaces = true;
+    options.paths.layers = true;
     options.config = nrcPreset("fast");
     options.config.endDepth = 0;
     const FilmImage plain = GpuRenderer(device(), scene).render(scene.cameras[0], options.paths, 1);

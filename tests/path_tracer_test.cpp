@@ -141,7 +141,7 @@ TEST_CASE("surfaces of the first hit") {
     reference::addQuad(scene, wall, {-10, -10, -2}, {20, 0, 0}, {0, 20, 0});
     const Camera camera = reference::lookAt(glm::vec3(0.0f), {0.0f, 0.0f, -1.0f}, 1.0f);
     PathTracerOptions options = picture(8, 0);
-    options.surfaces = true;
+    options.layers = true;
     const FilmImage film = test::GpuRenderer(device(), scene).render(camera, options, 2);
     for (size_t i = 0; i < film.mean.size(); ++i) {
         CHECK(glm::length(film.albedo[i] - glm::vec3(0.25f, 0.5f, 0.75f)) < 1e-6f);

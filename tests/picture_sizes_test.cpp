@@ -40,7 +40,7 @@ std::vector<Device::PlannedBuffer> planOf(bool isCpu, const NrcOptions& options,
     VkPhysicalDeviceLimits limits = device().limits();
     limits.maxStorageBufferRange = kBinding;
     return hasCache ? NrcRenderer::planned(isCpu, limits, options)
-                    : PathBuffers::planned(isCpu, options.paths);
+                    : WavefrontPathTracer::planned(isCpu, options.paths);
 }
 
 uint64_t sumOf(const std::vector<Device::PlannedBuffer>& plan) {
@@ -76,7 +76,7 @@ TEST_CASE(
     const auto presets = nrcPresetNames();
     for (uint32_t i = 0; i < 500; ++i) {
         NrcOptions options = optionsOf(edge(random), edge(random), presets[i % presets.size()]);
-        options.paths.surfaces = random.uniform() < 0.5;
+        options.paths.layers = random.uniform() < 0.5;
         options.paths.samplesPerFrame = std::min(4 * edge(random), 65536u);
         options.config.uniformShare = random.uniform() < 0.3 ? 0.05f : 0.0f;
         if (random.uniform() < 0.2) options.config.minRecords = 1u << 20;
@@ -153,7 +153,7 @@ TEST_CASE("pictures of a dozen sizes are right by path tracing and with a cache"
         INFO(c.width << "x" << c.height << (c.hasCache ? " with a cache" : ""));
         NrcOptions options = optionsOf(c.width, c.height);
         options.paths.maxBounces = c.bounces;
-        options.paths.surfaces = c.surfaces;
+        options.paths.layers = c.surfaces;
         options.paths.samplesPerFrame = c.samples;
         const Camera& camera = furnace().cameras.at(0);
         FilmImage film;
@@ -167,7 +167,7 @@ TEST_CASE("pictures of a dozen sizes are right by path tracing and with a cache"
                 // A frame that asks the cache, right or not: the last wave's paths end in it.
                 renderer.setWarmingUp(true);
                 renderer.renderFrame(camera, 1);
-                const BufferRange counters = renderer.cache().tap().counters;
+                const BufferRange counters = renderer.cache().buffers().counters;
                 CHECK(download<uint32_t>(device(), *counters.buffer, 1, gpu::kQueryCounter * 4).front() > 0);
                 CHECK(std::isfinite(meanOf(renderer.tracer().readFilm())));
             }

@@ -1,4 +1,5 @@
 // The warps of the unit square, the random numbers and the camera rays, as the shaders compute them.
+#include "engine/path/frame_constants.h"
 #include "kernels/path.h"
 #include "kernels/shaders.h"
 #include "shared/path.h"
@@ -242,23 +243,23 @@ TEST_CASE("camera rays are uniform in their pixels") {
     const Buffer rays(device, "rays", kRays * gpu::kRayRecords * 16),
         radiance(device, "radiance", kRays * 16);
     const Buffer counters(device, "counters", gpu::kCounters * 4);
+    PathTracerOptions options;
+    options.width = kWidth;
+    options.height = kHeight;
+    const FrameUniforms uniforms = frameUniforms({}, options, camera);
+    const Buffer constants(device, "frame constants", sizeof uniforms);
     FrameGraph graph(device);
     SquareHistogram jitter(32);
     constexpr uint32_t kFrames = 512;
     for (uint32_t frame = 0; frame < kFrames; ++frame) {
-        const gpu::CameraParams params{glm::vec4(camera.position, 0),
-                                       glm::vec4(camera.forward, 0),
-                                       glm::vec4(right, 0),
-                                       glm::vec4(camera.up * scale, 0),
-                                       kWidth,
-                                       kHeight,
-                                       0,
-                                       kRays,
-                                       frame,
-                                       1,
-                                       0,
-                                       0};
-        graph.pass(kernel).write(rays).write(radiance).readWrite(counters).push(params).dispatch(kRays);
+        graph.update(constants, uniforms);
+        graph.pass(kernel)
+            .read(constants)
+            .write(rays)
+            .write(radiance)
+            .readWrite(counters)
+            .push(gpu::WaveParams{0, frame, 0, kRays, 0, 0})
+            .dispatch(kRays);
         graph.execute();
         const auto records = download<glm::uvec4>(device, rays, kRays * gpu::kRayRecords);
         for (uint32_t path = 0; path < kRays; ++path) {
@@ -286,19 +287,20 @@ TEST_CASE("rays of an orthographic camera are parallel and leave their pixels") 
         radiance(device, "radiance", kRays * 16);
     const Buffer counters(device, "counters", gpu::kCounters * 4);
     FrameGraph graph(device);
-    const gpu::CameraParams params{glm::vec4(position, 0),
-                                   glm::vec4(forward, 0),
-                                   glm::vec4(right, 0),
-                                   glm::vec4(up, 0),
-                                   kWidth,
-                                   kHeight,
-                                   0,
-                                   kRays,
-                                   0,
-                                   1,
-                                   0,
-                                   1};
-    graph.pass(kernel).write(rays).write(radiance).readWrite(counters).push(params).dispatch(kRays);
+    FrameUniforms uniforms{};
+    uniforms.frame.seed = 1;
+    uniforms.frame.width = kWidth;
+    uniforms.frame.height = kHeight;
+    uniforms.camera = {glm::vec4(position, 1), glm::vec4(forward, 0), glm::vec4(right, 0), glm::vec4(up, 0)};
+    const Buffer constants(device, "frame constants", sizeof uniforms);
+    graph.update(constants, uniforms);
+    graph.pass(kernel)
+        .read(constants)
+        .write(rays)
+        .write(radiance)
+        .readWrite(counters)
+        .push(gpu::WaveParams{0, 0, 0, kRays, 0, 0})
+        .dispatch(kRays);
     graph.execute();
     const auto records = download<glm::uvec4>(device, rays, kRays * gpu::kRayRecords);
     for (uint32_t path = 0; path < kRays; ++path) {

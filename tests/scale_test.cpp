@@ -94,7 +94,7 @@ FilmImage render(const Scene& scene) {
     PathTracerOptions options;
     options.width = options.height = 16;
     options.maxBounces = 0;
-    options.surfaces = true;
+    options.layers = true;
     return GpuRenderer(validatedDevice(), scene).render(scene.cameras.at(0), options, 64);
 }
 

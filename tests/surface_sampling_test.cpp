@@ -1,6 +1,7 @@
 // Points of the scene's surfaces at which training paths start: uniform over area, seen from directions
 // weighted by the cosine on the sides that can be seen, whatever the wave and the form of the kernels.
 #include "engine/graph/frame_graph.h"
+#include "engine/path/frame_constants.h"
 #include "engine/scene/gpu_scene.h"
 #include "engine/scene/lights/area_table.h"
 #include "kernels/path.h"
@@ -78,8 +79,14 @@ std::vector<Sample> draw(RecordAccess form, uint32_t first, uint32_t count, uint
     const Kernel kernel(device, kernels::generate_surface_rays);
     const Buffer rays(device, "rays", uint64_t{count} * gpu::kRayRecords * 16),
         hits(device, "hits", uint64_t{count} * 16), counters(device, "counters", gpu::kCounters * 4);
+    FrameUniforms uniforms{};
+    uniforms.frame.seed = 1;
+    uniforms.frame.triangles = scene.triangles;
+    const Buffer constants(device, "frame constants", sizeof uniforms);
     FrameGraph graph(device);
+    graph.update(constants, uniforms);
     graph.pass(kernel)
+        .read(constants)
         .write(rays)
         .write(hits)
         .readWrite(counters)
@@ -89,8 +96,7 @@ std::vector<Sample> draw(RecordAccess form, uint32_t first, uint32_t count, uint
         .read(scene.textures)
         .read(scene.texels)
         .read(scene.areaTable)
-        .push(gpu::SurfacePathParams{gpu::kFirstSurfacePath + first, count, frame, 1, scene.triangles,
-                                     kDistance, 0, 0})
+        .push(gpu::SurfaceRayParams{{gpu::kFirstSurfacePath + first, frame, 0, count, 0, 0}, kDistance})
         .dispatch(count);
     graph.execute();
     REQUIRE(download<uint32_t>(device, counters, 1).front() == count);

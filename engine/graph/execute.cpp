@@ -101,6 +101,10 @@ void FrameGraph::State::record(const PassRecord& pass) {
         vkCmdFillBuffer(commands, pass.target->buffer->handle(), pass.target->offset, pass.target->bytes,
                         pass.value);
         break;
+    case PassRecord::Command::Update:
+        vkCmdUpdateBuffer(commands, pass.target->buffer->handle(), pass.target->offset, pass.target->bytes,
+                          pass.content.data());
+        break;
     case PassRecord::Command::Copy: {
         const VkBufferCopy region{pass.argument->offset, pass.target->offset, pass.target->bytes};
         vkCmdCopyBuffer(commands, pass.argument->buffer->handle(), pass.target->buffer->handle(), 1, &region);

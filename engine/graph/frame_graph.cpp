@@ -81,6 +81,17 @@ void FrameGraph::copy(BufferRange from, BufferRange to) {
     pass.target = to;
 }
 
+void FrameGraph::updateBytes(BufferRange range, std::span<const std::byte> bytes) {
+    checkTransfer("update", range);
+    if (range.bytes != bytes.size())
+        fail(ExitCode::Internal, "update: {} bytes of buffer {} from {}", range.bytes, range.buffer->name(),
+             bytes.size());
+    PassRecord& pass = state_->add("update");
+    pass.command = PassRecord::Command::Update;
+    pass.target = range;
+    pass.content.assign(bytes.begin(), bytes.end());
+}
+
 void FrameGraph::section(const std::string& name) {
     state_->section = name;
 }
@@ -103,6 +114,11 @@ Pass& Pass::write(BufferRange range) {
 }
 Pass& Pass::readWrite(BufferRange range) {
     return bind(range, true, true);
+}
+
+Pass& Pass::bind(std::span<const PassBinding> bindings) {
+    for (const PassBinding& binding : bindings) bind(binding.range, binding.read, binding.write);
+    return *this;
 }
 
 Pass& Pass::bind(BufferRange range, bool read, bool write) {

@@ -18,8 +18,15 @@ namespace irradia {
 
 class FrameGraph;
 
+struct PassBinding {
+    BufferRange range;
+    bool read = false;
+    bool write = false;
+};
+
 class Pass {
 public:
+    Pass& bind(std::span<const PassBinding> bindings); // one after the other
     Pass& read(BufferRange range);
     Pass& write(BufferRange range);
     Pass& readWrite(BufferRange range);
@@ -56,6 +63,12 @@ public:
     Pass pass(const Kernel& kernel, const std::string& name); // a second use under its own row
     void fill(BufferRange range, uint32_t value);
     void copy(BufferRange from, BufferRange to);
+    // Writes what `value` is now: a few constants, 64 KiB at most.
+    template <typename T>
+    void update(BufferRange range, const T& value) {
+        static_assert(std::is_trivially_copyable_v<T> && sizeof(T) % 4 == 0 && sizeof(T) <= 65536);
+        updateBytes(range, std::as_bytes(std::span<const T, 1>(&value, 1)));
+    }
 
     // What passes that follow belong to: their names become "NAME/PASS"; empty = nothing.
     void section(const std::string& name);
@@ -75,6 +88,7 @@ public:
 
 private:
     friend class Pass;
+    void updateBytes(BufferRange range, std::span<const std::byte> bytes);
     struct State;
     std::unique_ptr<State> state_;
 };

@@ -7,25 +7,20 @@
 
 namespace irradia {
 
-struct PassBinding {
-    BufferRange range;
-    bool read = false;
-    bool write = false;
-};
-
 struct PassRecord {
-    enum class Command { None, Dispatch, DispatchIndirect, Fill, Copy };
+    enum class Command { None, Dispatch, DispatchIndirect, Fill, Copy, Update };
 
     std::string name;
-    const Kernel* kernel = nullptr; // none for fills and copies
+    const Kernel* kernel = nullptr; // none for fills, copies and updates
     std::vector<PassBinding> bindings;
     std::array<std::byte, 128> push{};
     uint32_t pushBytes = 0;
     Command command = Command::None;
     uint32_t groups = 0;                 // Dispatch
     std::optional<BufferRange> argument; // DispatchIndirect: group counts; Copy: the source
-    std::optional<BufferRange> target;   // Fill, Copy
+    std::optional<BufferRange> target;   // Fill, Copy, Update
     uint32_t value = 0;                  // Fill
+    std::vector<std::byte> content;      // Update
     bool cutBefore = false;
     uint32_t run = 0; // passes of the same name before it in this execution
 };

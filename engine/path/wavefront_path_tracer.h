@@ -2,11 +2,9 @@
 // rays pass through kernels, one bounce at a time, and a film gathers frames.
 #pragma once
 
-#include "engine/graph/frame_graph.h"
-#include "engine/path/cache_paths.h"
-#include "engine/path/film_image.h"
-#include "engine/path/path_buffers.h"
-#include "engine/scene/gpu_scene.h"
+#include "engine/path/bounces.h"
+#include "engine/path/film.h"
+#include "engine/path/ray_source.h"
 
 namespace irradia {
 
@@ -15,59 +13,57 @@ public:
     WavefrontPathTracer(Device& device, const GpuScene& scene, const PathTracerOptions& options,
                         Profiler* profiler = nullptr);
 
+    // What the constructor allocates, for Device::plan.
+    static std::vector<Device::PlannedBuffer> planned(bool isCpu, const PathTracerOptions& options);
+
     // Adds a frame to the film. `index` numbers it for the random numbers: frames are independent, and the
     // same index gives the same frame, whatever was rendered before.
     void renderFrame(const Camera& camera, uint32_t index);
 
     // The steps of a frame, for renderers that take more: begin, each wave's samples in turn, each followed
-    // by what the cache adds to radiance(), the wave's film, and at last the graph's execution and end.
+    // by what is added to radiance(), the wave's film, and at last the graph's execution and end.
     FrameGraph& graph() { return graph_; }
-    void beginFrame();
+    void beginFrame(const Camera& camera, uint32_t index);
     Waves waves() const;
-    void traceWave(const Camera& camera, const Wave& wave, uint32_t frame, const CachePaths* cache = nullptr);
-    void addToFilm(const Wave& wave);
-    // `paths` paths that are not seen and only train: through the camera's pixels, or from points uniform
-    // over the scene's surfaces (whose area table is packed) as seen from `distance` away.
-    Waves trainingWaves(uint32_t paths) const;
-    Waves surfaceWaves(uint32_t paths) const;
-    void traceSurfaceWave(const Wave& wave, uint32_t frame, float distance, const CachePaths& cache);
-    void endFrame();
-    void forgetFilm();                                           // the next frame is the film's first
+    void traceWave(const Wave& wave, const PathTap* tap = nullptr);
+    void addToFilm(const Wave& wave) { film_.add(graph_, buffers_, wave); }
+    // `paths` paths that no pixel sees, for a tap alone: through the camera's pixels, or from points uniform
+    // over the scene's surfaces (whose area table is packed) as seen from `distance` away. A wave has at most
+    // `most`.
+    Waves unseenCameraWaves(uint32_t paths, uint32_t most) const;
+    Waves surfaceWaves(uint32_t paths, uint32_t most) const;
+    void traceSurfaceWave(const Wave& wave, float distance, const PathTap& tap);
+    void endFrame() { film_.endFrame(); }
+    void forgetFilm() { film_.forget(graph_); } // the next frame is the film's first
+
     const Buffer& radiance() const { return buffers_.radiance; } // vec4 per path of the wave
+    const Buffer& pathStates() const {
+        return buffers_.pathStates;
+    } // a quad per path, where the tap has them
     uint32_t largestWave() const { return waveSize_; }
     // Number of the last ray of a path, which only meets emission.
     uint32_t deepestRay() const { return options_.maxBounces + 1; }
 
-    uint32_t frames() const { return frames_; } // in the film
-    FilmImage readFilm() const;
+    uint32_t frames() const { return film_.frames(); } // in the film
+    FilmImage readFilm() const { return film_.read(); }
     uint64_t raysTraced() const; // of all kinds, by the last frame
 
 private:
-    struct Kernels {
-        Kernel generateCameraRays, generateSurfaceRays, beginBounce, intersectClosest, handleEscapedRays,
-            handleEmissiveHits, recordSurfaces, scatter, intersectShadow, addDirectLight, updateFilm;
-    };
-
-    void bounce(uint32_t depth, const Wave& wave, uint32_t sampleIndex, const CachePaths* cache);
-    void beginBounce(uint32_t parity, bool areTraced);
-    void meetSurfaces(const gpu::BounceParams& params, const CachePaths* cache);
-    void scatter(const gpu::BounceParams& params, const CachePaths* cache);
-    void addDirectLight(const CachePaths* cache);
-    void recordSurfaces(const Camera& camera, const Wave& wave);
-    // Of the wave's first path, for the random numbers.
-    uint32_t sampleIndex(const Wave& wave, uint32_t frame) const {
-        return frame * options_.samplesPerFrame + wave.firstSample;
-    }
-    uint32_t trainingWave() const; // paths at most, whose training vertices one binding holds
+    gpu::WaveParams paramsOf(const Wave& wave) const;
+    void follow(const Wave& wave, gpu::WaveParams params, const PathTap* tap);
 
     Device& device_;
     const GpuScene& scene_;
     PathTracerOptions options_;
     FrameGraph graph_;
-    Kernels kernels_;
     uint32_t waveSize_;
-    uint32_t frames_ = 0;
-    PathBuffers buffers_;
+    WaveBuffers buffers_;
+    Buffer constants_; // FrameUniforms
+    CameraRays cameraRays_;
+    SurfaceRays surfaceRays_;
+    Bounces bounces_;
+    Film film_;
+    uint32_t frame_ = 0; // that was begun, for the random numbers
 };
 
 } // namespace irradia

@@ -1,7 +1,6 @@
 #include "nrc/renderer/nrc_renderer.h"
 
 #include "nrc/cache/neural_cache.h"
-#include "nrc/samplers/bound_paths.h"
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -32,9 +31,9 @@ uint32_t mostSurfacePaths(const NrcOptions& options) {
 PathTracerOptions pathOptions(bool isCpu, const VkPhysicalDeviceLimits& limits, const NrcOptions& options) {
     const TilePaths tiles = tilePaths(options);
     PathTracerOptions paths = options.paths;
-    paths.cached = true;
-    paths.trainingPaths = std::max(tiles.mostUnseen(), mostSurfacePaths(options));
-    paths.waveSize = std::min(PathBuffers::wantedWave(isCpu, options.paths),
+    paths.kernels = cachedVertexKernels();
+    paths.unseenPaths = std::max(tiles.mostUnseen(), mostSurfacePaths(options));
+    paths.waveSize = std::min(WaveBuffers::wantedWave(isCpu, options.paths),
                               tiles.mostPixelsOfWave(limits.maxStorageBufferRange));
     return paths;
 }
@@ -66,6 +65,7 @@ NrcRenderer::NrcRenderer(Device& device, const GpuScene& scene, const Bounds& bo
     , bounds_(bounds)
     , tracer_(device, scene, pathOptions(device.isCpu(), device.limits(), options), profiler)
     , cache_(cacheKind(options).make(device, cacheRoom(options, tracer_.largestWave())))
+    , tap_(device, cache_->buffers())
     , adaptation_(options.config.adaptation, options.config.steps, options.config.model.optimizer.emaDecay)
     , hasSurfaces_(scene.triangles > 0)
     , tiles_(tilePaths(options))
@@ -76,28 +76,28 @@ NrcRenderer::NrcRenderer(Device& device, const GpuScene& scene, const Bounds& bo
 std::vector<Device::PlannedBuffer> NrcRenderer::planned(bool isCpu, const VkPhysicalDeviceLimits& limits,
                                                         const NrcOptions& options) {
     const PathTracerOptions paths = pathOptions(isCpu, limits, options);
-    auto list = PathBuffers::planned(isCpu, paths);
+    auto list = WavefrontPathTracer::planned(isCpu, paths);
     auto cache =
-        cacheKind(options).planned(isCpu, limits, cacheRoom(options, PathBuffers::largestWave(isCpu, paths)));
+        cacheKind(options).planned(isCpu, limits, cacheRoom(options, WaveBuffers::largestWave(isCpu, paths)));
     list.insert(list.end(), std::move_iterator(cache.begin()), std::move_iterator(cache.end()));
     return list;
 }
 
 void NrcRenderer::renderFrame(const Camera& camera, uint32_t index) {
     FrameGraph& graph = tracer_.graph();
-    tracer_.beginFrame();
+    tracer_.beginFrame(camera, index);
     cache_->begin(graph);
     if (!isShown()) ++framesWithoutCache_;
     for (Waves waves = tracer_.waves(); const auto wave = waves.next();) {
-        const CachePaths paths = cachePaths(*wave);
+        const PathTap tap = listen(*wave);
         cache_->beginQueries(graph);
-        tracer_.traceWave(camera, *wave, index, &paths);
+        tracer_.traceWave(*wave, &tap);
         graph.section("query");
         cache_->answer(graph, tracer_.radiance());
         graph.section("");
         tracer_.addToFilm(*wave);
     }
-    if (learns_) learn(camera, index);
+    if (learns_) learn();
     graph.execute();
     tracer_.endFrame();
     counts_ = cache_->counts();
@@ -110,14 +110,13 @@ void NrcRenderer::renderFrame(const Camera& camera, uint32_t index) {
 }
 
 // Paths that are not seen, and what all training paths of the frame teach.
-void NrcRenderer::learn(const Camera& camera, uint32_t index) {
+void NrcRenderer::learn() {
     FrameGraph& graph = tracer_.graph();
     gpu::CacheRule unseen = rule();
     unseen.lastDepth = options_.config.suffixBounces;
-    const CacheTap tap = cache_->tap();
     graph.section("train");
-    tiles_.traceUnseen(tracer_, camera, index, tap, unseen, tiles_.tiles());
-    surfaces_.trace(tracer_, index, tap, unseen, tiles_.tiles() + tiles_.unseen());
+    tiles_.traceUnseen(tracer_, tap_, unseen, tiles_.tiles());
+    surfaces_.trace(tracer_, tap_, unseen, tiles_.tiles() + tiles_.unseen());
     cache_->learn(graph, trainingPaths(), adaptation_.effort());
     graph.section("");
 }
@@ -145,14 +144,14 @@ std::map<std::string, std::string> NrcRenderer::attributes() const {
     return attributes;
 }
 
-CachePaths NrcRenderer::cachePaths(const Wave& wave) const {
+PathTap NrcRenderer::listen(const Wave& wave) {
     gpu::CacheRule rule = this->rule();
     if (!learns_ || wave.firstSample > 0) rule.tilesX = rule.tilesY = 0;
     if (!isShown()) {
         rule.boxHigh.w = std::numeric_limits<float>::infinity();
         rule.endDepth = gpu::kNoDepth;
     }
-    return boundPaths(cache_->tap(), rule, tiles_.touchedBy(wave));
+    return tap_.listen(tracer_, rule, tiles_.touchedBy(wave));
 }
 
 // A cache that knows nothing is not shown (of light that no path has found there is nothing to know), unless

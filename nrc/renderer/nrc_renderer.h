@@ -53,15 +53,16 @@ public:
     uint32_t trainingPaths() const { return tiles_.tiles() + tiles_.unseen() + surfaces_.count(); }
 
 private:
-    void learn(const Camera& camera, uint32_t index);
+    void learn();
     void chooseTrainingPaths();
     bool isShown() const;
-    CachePaths cachePaths(const Wave& wave) const;
+    PathTap listen(const Wave& wave);
 
     NrcOptions options_;
     Bounds bounds_;
     WavefrontPathTracer tracer_;
     std::unique_ptr<Cache> cache_;
+    CacheTap tap_;
     CacheCounts counts_;
     Adaptation adaptation_;
     bool hasSurfaces_;

@@ -25,7 +25,7 @@ public:
 
     std::vector<Device::PlannedBuffer> planned(bool isCpu, const VkPhysicalDeviceLimits& /*limits*/,
                                                const PathTracerOptions& paths) const override {
-        return PathBuffers::planned(isCpu, paths);
+        return WavefrontPathTracer::planned(isCpu, paths);
     }
     std::unique_ptr<Renderer> make(const RendererPlace& place) const override {
         return std::make_unique<PathTracingRenderer>(place, paths());

@@ -12,7 +12,7 @@ std::vector<Device::PlannedBuffer> buffersOf(const Device& device, const MethodS
                                              const PathTracerOptions& paths) {
     auto buffers = setup.planned(device.isCpu(), device.limits(), paths);
     if (device.sharesMemory())
-        buffers.push_back({"picture read back", FilmImage::hostBytes(paths.pixels(), paths.surfaces), 1});
+        buffers.push_back({"picture read back", FilmImage::hostBytes(paths.pixels(), paths.layers), 1});
     return buffers;
 }
 

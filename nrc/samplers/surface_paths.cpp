@@ -1,6 +1,5 @@
 #include "nrc/samplers/surface_paths.h"
 
-#include "nrc/samplers/bound_paths.h"
 #include <algorithm>
 #include <cmath>
 
@@ -23,10 +22,10 @@ void SurfacePaths::choose(double paths) {
     count_ = std::min(static_cast<uint32_t>(std::max(paths, 0.0)), most_);
 }
 
-void SurfacePaths::trace(WavefrontPathTracer& tracer, uint32_t frame, const CacheTap& tap,
-                         const gpu::CacheRule& rule, uint32_t first) const {
-    for (Waves waves = tracer.surfaceWaves(count_); const auto wave = waves.next();) {
-        tracer.traceSurfaceWave(*wave, frame, distance_, unseenPaths(tap, rule, first, wave->paths()));
+void SurfacePaths::trace(WavefrontPathTracer& tracer, const CacheTap& tap, const gpu::CacheRule& rule,
+                         uint32_t first) const {
+    for (Waves waves = tracer.surfaceWaves(count_, tap.mostUnseen()); const auto wave = waves.next();) {
+        tracer.traceSurfaceWave(*wave, distance_, tap.listenUnseen(tracer, rule, first, *wave));
         first += wave->paths();
     }
 }

@@ -2,8 +2,7 @@
 // forgotten.
 #pragma once
 
-#include "engine/path/wavefront_path_tracer.h"
-#include "nrc/cache/cache.h"
+#include "nrc/samplers/cache_tap.h"
 
 namespace irradia {
 
@@ -18,7 +17,7 @@ public:
     float distance() const { return distance_; }
 
     // Traces them: training paths from number `first` on. All of such a path is suffix.
-    void trace(WavefrontPathTracer& tracer, uint32_t frame, const CacheTap& tap, const gpu::CacheRule& rule,
+    void trace(WavefrontPathTracer& tracer, const CacheTap& tap, const gpu::CacheRule& rule,
                uint32_t first) const;
 
 private:

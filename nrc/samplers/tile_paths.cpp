@@ -1,6 +1,5 @@
 #include "nrc/samplers/tile_paths.h"
 
-#include "nrc/samplers/bound_paths.h"
 #include <algorithm>
 #include <cmath>
 
@@ -34,8 +33,6 @@ void TilePaths::choose(double paths) {
 void TilePaths::setTiles(gpu::CacheRule& rule) const {
     rule.tilesX = tilesX_;
     rule.tilesY = tilesY_;
-    rule.width = width_;
-    rule.height = height_;
 }
 
 RowRange TilePaths::touchedBy(const Wave& wave) const {
@@ -44,11 +41,11 @@ RowRange TilePaths::touchedBy(const Wave& wave) const {
     return {first * tilesX_, (last + 1 - first) * tilesX_};
 }
 
-void TilePaths::traceUnseen(WavefrontPathTracer& tracer, const Camera& camera, uint32_t frame,
-                            const CacheTap& tap, const gpu::CacheRule& rule, uint32_t first) const {
-    for (Waves waves = tracer.trainingWaves(unseen_); const auto wave = waves.next();) {
-        const CachePaths paths = unseenPaths(tap, rule, first, wave->paths());
-        tracer.traceWave(camera, *wave, frame, &paths);
+void TilePaths::traceUnseen(WavefrontPathTracer& tracer, const CacheTap& tap, const gpu::CacheRule& rule,
+                            uint32_t first) const {
+    for (Waves waves = tracer.unseenCameraWaves(unseen_, tap.mostUnseen()); const auto wave = waves.next();) {
+        const PathTap listening = tap.listenUnseen(tracer, rule, first, *wave);
+        tracer.traceWave(*wave, &listening);
         first += wave->paths();
     }
 }

@@ -110,7 +110,7 @@ MethodRequest RenderSession::methodRequest() const {
     method.paths.maxBounces = request_.maxBounces;
     method.paths.samplesPerFrame = request_.samplesPerFrame;
     method.paths.seed = request_.seed;
-    method.paths.surfaces = request_.surfaces;
+    method.paths.layers = request_.surfaces;
     method.seed = request_.seed;
     method.options = request_.methodOptions;
     method.form = kernelForm(request_.form).network;

@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variant add_direct_light_cached WITH_CACHE
+#pragma folders path/taps/none
+#pragma variant add_direct_light_cached path/taps/radiance_cache
 // Adds the light samples whose shadow rays met nothing. Each path has at most one a bounce: no two items share a path.
 #include "lib/kernel.glsl"
 #include "shared/queue.h"
@@ -9,10 +10,8 @@ RECORDS_READ(0, shadowRays);
 WORDS_READ(1, visibility);
 COUNTERS_READ(2, counters);
 layout(set = 0, binding = 3, std430) buffer Radiance { vec4 radiance[]; };
-#ifdef WITH_CACHE
-#define FIRST_TRAINING_BINDING 4
-#include "path/training_light.glsl"
-#endif
+#define TAP_BINDING 4
+#include "tap_light.glsl"
 
 void main() {
     uint slot = gl_GlobalInvocationID.x;
@@ -20,7 +19,5 @@ void main() {
     if (loadWord(visibility, slot) == 0u) return;
     uint path = loadRecord(shadowRays, slot * kShadowRayRecords + 1u).w;
     radiance[path].rgb += uintBitsToFloat(loadRecord(shadowRays, slot * kShadowRayRecords + 2u).rgb);
-#ifdef WITH_CACHE
-    gatherDirectLight(path);
-#endif
+    hearDirectLight(path);
 }

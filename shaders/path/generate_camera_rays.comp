@@ -3,29 +3,30 @@
 // One camera ray per path of the wave: pinhole or orthographic, box pixel filter.
 #include "lib/kernel.glsl"
 #include "lib/rng.glsl"
-#include "shared/path.h"
+#include "path/frame.glsl"
 #include "shared/queue.h"
 
-RECORDS_WRITE(0, rays);
-layout(set = 0, binding = 1, std430) writeonly buffer Radiance { vec4 radiance[]; };
-COUNTERS(2, counters);
-layout(push_constant) uniform Push { CameraParams params; };
+FRAME_CONSTANTS(0);
+RECORDS_WRITE(1, rays);
+layout(set = 0, binding = 2, std430) writeonly buffer Radiance { vec4 radiance[]; };
+COUNTERS(3, counters);
+layout(push_constant) uniform Push { WaveParams params; };
 #include "path/wave.glsl"
 
 void main() {
     uint path = gl_GlobalInvocationID.x;
-    if (path == 0u) counters[kRayCounter] = params.pathCount;
-    if (path >= params.pathCount) return;
+    if (path == 0u) counters[kRayCounter] = params.paths;
+    if (path >= params.paths) return;
     uint pixel = pixelOf(path);
-    uint seen = pixel < kFirstTrainingPixel ? pixel : (pixel - kFirstTrainingPixel) % (params.width * params.height);
-    uint y = seen / params.width;
-    uint x = seen - y * params.width;
-    vec4 u = unitFloats(randomBits(pixel, sampleOf(path), kCameraBlock, params.seed));
-    vec2 ndc = vec2(2.0 * (float(x) + u.x) / float(params.width) - 1.0, 1.0 - 2.0 * (float(y) + u.y) / float(params.height));
-    vec3 across = ndc.x * params.right.xyz + ndc.y * params.up.xyz;
-    bool parallel = params.isOrthographic != 0u;
-    vec3 origin = parallel ? params.position.xyz + across : params.position.xyz;
-    vec3 direction = parallel ? params.forward.xyz : normalize(params.forward.xyz + across);
+    uint seen = pixel < kFirstTrainingPixel ? pixel : (pixel - kFirstTrainingPixel) % (frame.width * frame.height);
+    uint y = seen / frame.width;
+    uint x = seen - y * frame.width;
+    vec4 u = unitFloats(randomBits(pixel, sampleOf(path), kCameraBlock, frame.seed));
+    vec2 ndc = vec2(2.0 * (float(x) + u.x) / float(frame.width) - 1.0, 1.0 - 2.0 * (float(y) + u.y) / float(frame.height));
+    vec3 across = ndc.x * camera.right.xyz + ndc.y * camera.up.xyz;
+    bool parallel = camera.position.w != 0.0;
+    vec3 origin = parallel ? camera.position.xyz + across : camera.position.xyz;
+    vec3 direction = parallel ? camera.forward.xyz : normalize(camera.forward.xyz + across);
 
     storeRecord(rays, path * kRayRecords, uvec4(floatBitsToUint(origin), path));
     storeRecord(rays, path * kRayRecords + 1u, uvec4(floatBitsToUint(direction), 0u));

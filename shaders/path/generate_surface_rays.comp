@@ -5,23 +5,24 @@
 #include "lib/kernel.glsl"
 #include "lib/rng.glsl"
 #include "lib/sampling.glsl"
-#include "shared/path.h"
+#include "path/frame.glsl"
 #include "shared/queue.h"
 
-RECORDS_WRITE(0, rays);
-RECORDS_WRITE(1, hits);
-COUNTERS(2, counters);
-RECORDS_READ(3, geometry);
-RECORDS_READ(4, attributes);
-RECORDS_READ(5, materials);
-RECORDS_READ(6, textures);
-HALVES_READ(7, texels);
-RECORDS_READ(8, areaTable);
-layout(push_constant) uniform Push { SurfacePathParams params; };
+FRAME_CONSTANTS(0);
+RECORDS_WRITE(1, rays);
+RECORDS_WRITE(2, hits);
+COUNTERS(3, counters);
+RECORDS_READ(4, geometry);
+RECORDS_READ(5, attributes);
+RECORDS_READ(6, materials);
+RECORDS_READ(7, textures);
+HALVES_READ(8, texels);
+RECORDS_READ(9, areaTable);
+layout(push_constant) uniform Push { WaveParams params; float viewDistance; };
 #include "path/scene.glsl"
 
 uint sampleByArea(uvec2 random) {
-    uint primitive = uniformIndex(random.x, params.triangles);
+    uint primitive = uniformIndex(random.x, frame.triangles);
     uvec4 entry = loadRecord(areaTable, primitive);
     return unitFloat(random.y) < uintBitsToFloat(entry.x) ? primitive : entry.y;
 }
@@ -34,19 +35,19 @@ float sampleSide(uint material, uint random) {
 
 void main() {
     uint path = gl_GlobalInvocationID.x;
-    if (path == 0u) counters[kRayCounter] = params.pathCount;
-    if (path >= params.pathCount) return;
-    uvec4 point = randomBits(params.firstPath + path, params.sampleIndex, kSurfacePointBlock, params.seed);
-    uvec4 view = randomBits(params.firstPath + path, params.sampleIndex, kSurfaceViewBlock, params.seed);
+    if (path == 0u) counters[kRayCounter] = params.paths;
+    if (path >= params.paths) return;
+    uvec4 point = randomBits(params.firstPixel + path, params.sampleIndex, kSurfacePointBlock, frame.seed);
+    uvec4 view = randomBits(params.firstPixel + path, params.sampleIndex, kSurfaceViewBlock, frame.seed);
     uint primitive = sampleByArea(point.xy);
     vec2 b = sampleTriangle(unitFloats(point).zw);
     TriangleRecord tri = loadTriangle(primitive);
     vec3 normal = normalize(cross(tri.e1, tri.e2)) * sampleSide(tri.material, view.z);
     vec3 towardsViewer = toWorld(frameFromNormal(normal), sampleCosineHemisphere(unitFloats(view).xy));
-    vec3 origin = tri.p0 + b.x * tri.e1 + b.y * tri.e2 + params.distance * towardsViewer;
+    vec3 origin = tri.p0 + b.x * tri.e1 + b.y * tri.e2 + viewDistance * towardsViewer;
 
     storeRecord(rays, path * kRayRecords, uvec4(floatBitsToUint(origin), path));
     storeRecord(rays, path * kRayRecords + 1u, uvec4(floatBitsToUint(-towardsViewer), 0u));
     storeRecord(rays, path * kRayRecords + 2u, uvec4(floatBitsToUint(vec3(1.0)), 0u));
-    storeRecord(hits, path, uvec4(floatBitsToUint(params.distance), primitive, floatBitsToUint(b)));
+    storeRecord(hits, path, uvec4(floatBitsToUint(viewDistance), primitive, floatBitsToUint(b)));
 }

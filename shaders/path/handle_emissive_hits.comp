@@ -1,27 +1,28 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variant handle_emissive_hits_cached WITH_CACHE
+#pragma folders path/taps/none path/light_samplers/power_or_tree
+#pragma variant handle_emissive_hits_cached path/taps/radiance_cache
 // Rays that hit an emissive triangle: its radiance, weighted against light sampling.
 #include "lib/kernel.glsl"
-#include "shared/path.h"
+#include "path/frame.glsl"
 #include "shared/queue.h"
 
-RECORDS_READ(0, rays);
-RECORDS_READ(1, hits);
-COUNTERS_READ(2, counters);
-layout(set = 0, binding = 3, std430) buffer Radiance { vec4 radiance[]; };
-RECORDS_READ(4, geometry);
-RECORDS_READ(5, attributes);
-RECORDS_READ(6, materials);
-RECORDS_READ(7, textures);
-HALVES_READ(8, texels);
-RECORDS_READ(9, lights);
-#ifdef WITH_CACHE
-#define FIRST_TRAINING_BINDING 10
-#include "path/training_light.glsl"
-#endif
-layout(push_constant) uniform Push { BounceParams params; };
-#include "path/emitters.glsl"
+FRAME_CONSTANTS(0);
+RECORDS_READ(1, rays);
+RECORDS_READ(2, hits);
+COUNTERS_READ(3, counters);
+layout(set = 0, binding = 4, std430) buffer Radiance { vec4 radiance[]; };
+RECORDS_READ(5, geometry);
+RECORDS_READ(6, attributes);
+RECORDS_READ(7, materials);
+RECORDS_READ(8, textures);
+HALVES_READ(9, texels);
+RECORDS_READ(10, lights);
+layout(push_constant) uniform Push { WaveParams params; };
+#define TAP_BINDING 11
+#include "tap_light.glsl"
+#include "path/lights/triangles.glsl"
+#include "lib/sampling.glsl"
 
 void main() {
     uint slot = gl_GlobalInvocationID.x;
@@ -48,7 +49,5 @@ void main() {
         weight = powerHeuristic(ray.w, pdf);
     }
     radiance[path].rgb += uintBitsToFloat(beta.rgb) * emitted * weight;
-#ifdef WITH_CACHE
-    if (params.depth > 0u) gatherEmission(path, emitted * weight);
-#endif
+    if (params.depth > 0u) hearEmission(path, emitted * weight);
 }

@@ -1,22 +1,23 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variant handle_escaped_rays_cached WITH_CACHE
+#pragma folders path/taps/none path/light_samplers/power_or_tree
+#pragma variant handle_escaped_rays_cached path/taps/radiance_cache
 // Rays that left the scene: the environment's radiance, weighted against light sampling.
 #include "lib/kernel.glsl"
-#include "shared/path.h"
+#include "path/frame.glsl"
 #include "shared/queue.h"
 
-RECORDS_READ(0, rays);
-RECORDS_READ(1, hits);
-COUNTERS_READ(2, counters);
-layout(set = 0, binding = 3, std430) buffer Radiance { vec4 radiance[]; };
-RECORDS_READ(4, environment);
-#ifdef WITH_CACHE
-#define FIRST_TRAINING_BINDING 5
-#include "path/training_light.glsl"
-#endif
-layout(push_constant) uniform Push { BounceParams params; };
-#include "path/environment.glsl"
+FRAME_CONSTANTS(0);
+RECORDS_READ(1, rays);
+RECORDS_READ(2, hits);
+COUNTERS_READ(3, counters);
+layout(set = 0, binding = 4, std430) buffer Radiance { vec4 radiance[]; };
+RECORDS_READ(5, lights);
+RECORDS_READ(6, environment);
+layout(push_constant) uniform Push { WaveParams params; };
+#define TAP_BINDING 7
+#include "tap_light.glsl"
+#include "path/lights/environment.glsl"
 
 void main() {
     uint slot = gl_GlobalInvocationID.x;
@@ -30,7 +31,5 @@ void main() {
     float weight = params.depth == 0u ? 1.0 : powerHeuristic(ray.w, environmentPdf(uv));
     vec3 emitted = environmentRadiance(uv);
     radiance[path].rgb += beta * emitted * weight;
-#ifdef WITH_CACHE
-    if (params.depth > 0u) gatherEmission(path, emitted * weight);
-#endif
+    if (params.depth > 0u) hearEmission(path, emitted * weight);
 }

@@ -1,12 +1,11 @@
-// Light sampling: the environment by its texels, through an alias table (Vose 1991: constant time whatever their number);
-// emissive triangles by power through another where they are few, by what reaches the point where they are many
-// (light_tree.glsl). Bindings: those of emitters.glsl and environment.glsl and `environmentAlias` (records).
+// Light sampling: a point of the light that light_sampler.glsl chooses. Bindings: those of lights/ and `environmentAlias`
+// (quads); `frame` is FrameConstants.
 #ifndef IRRADIA_PATH_LIGHT_SAMPLING_GLSL
 #define IRRADIA_PATH_LIGHT_SAMPLING_GLSL
 #include "lib/plane_error.glsl"
 #include "lib/rng.glsl"
-#include "path/emitters.glsl"
-#include "path/environment.glsl"
+#include "path/lights/environment.glsl"
+#include "path/lights/triangles.glsl"
 
 struct LightSample {
     vec3 direction; // unit, towards the light
@@ -17,24 +16,17 @@ struct LightSample {
 
 const float kFarAway = 1e30;
 
+// By its texels, through an alias table: constant time whatever their number.
 LightSample sampleEnvironment(uvec4 random) {
-    uint count = params.environmentWidth * params.environmentHeight;
+    uint count = frame.environmentWidth * frame.environmentHeight;
     uint texel = uniformIndex(random.x, count);
     uvec4 entry = loadRecord(environmentAlias, texel);
     texel = unitFloat(random.y) < uintBitsToFloat(entry.x) ? texel : entry.y;
-    uint row = texel / params.environmentWidth;
-    uint column = texel - row * params.environmentWidth;
+    uint row = texel / frame.environmentWidth;
+    uint column = texel - row * frame.environmentWidth;
     vec2 uv = (vec2(column, row) + vec2(unitFloat(random.z), unitFloat(random.w))) /
-              vec2(params.environmentWidth, params.environmentHeight);
+              vec2(frame.environmentWidth, frame.environmentHeight);
     return LightSample(directionOfEquirect(uv), kFarAway, environmentRadiance(uv), environmentPdf(uv));
-}
-
-LightChoice chooseTriangleLight(Receiver receiver, uvec4 random) {
-    if (kHasLightTree) return chooseLight(receiver, random.x);
-    uint light = uniformIndex(random.x, params.lightCount);
-    uvec4 entry = loadRecord(lights, light);
-    light = unitFloat(random.y) < uintBitsToFloat(entry.x) ? light : entry.y;
-    return LightChoice(light, lightChance(light, receiver));
 }
 
 LightSample sampleTriangleLight(Receiver receiver, uvec4 random) {
@@ -62,7 +54,7 @@ LightSample sampleLight(Receiver receiver, uvec4 random, float choice) {
     if (kHasEnvironment && kHasEmitters) {
         LightSample a = sampleEnvironment(random);
         LightSample b = sampleTriangleLight(receiver, random);
-        if (choice < params.environmentProbability) return a;
+        if (choice < shareOfEnvironment()) return a;
         return b;
     }
     if (kHasEnvironment) return sampleEnvironment(random);

@@ -1,44 +1,35 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variant scatter_cached WITH_CACHE
+#pragma folders path/taps/none path/light_samplers/power_or_tree
+#pragma variant scatter_cached path/taps/radiance_cache
 // The vertex at a hit: one light sample (a shadow ray) and one BSDF sample (the path's next ray).
 #include "lib/kernel.glsl"
-#include "shared/path.h"
+#include "path/frame.glsl"
 #include "shared/queue.h"
 
-RECORDS_READ(0, rays);
-RECORDS_READ(1, hits);
-COUNTERS(2, counters);
-RECORDS_READ(3, geometry);
-RECORDS_READ(4, attributes);
-RECORDS_READ(5, materials);
-RECORDS_READ(6, textures);
-HALVES_READ(7, texels);
-RECORDS_READ(8, lights);
-RECORDS_READ(9, environment);
-RECORDS_READ(10, environmentAlias);
-RECORDS_READ(11, reflectanceTable);
-RECORDS_WRITE(12, nextRays);
-RECORDS_WRITE(13, shadowRays);
-#ifdef WITH_CACHE
-#define FIRST_TRAINING_BINDING 14
-RECORDS_WRITE(17, queries);
-RECORDS_WRITE(18, queryWeights);
-RECORDS_WRITE(19, trainingQueries);
-COUNTERS(20, cacheCounters);
-layout(set = 0, binding = 21, std430) buffer Radiance { vec4 radiance[]; };
-#include "shared/cache.h"
-layout(push_constant) uniform Push { BounceParams params; CacheRule rule; };
-#else
-layout(push_constant) uniform Push { BounceParams params; };
-#endif
+FRAME_CONSTANTS(0);
+RECORDS_READ(1, rays);
+RECORDS_READ(2, hits);
+COUNTERS(3, counters);
+RECORDS_READ(4, geometry);
+RECORDS_READ(5, attributes);
+RECORDS_READ(6, materials);
+RECORDS_READ(7, textures);
+HALVES_READ(8, texels);
+RECORDS_READ(9, lights);
+RECORDS_READ(10, environment);
+RECORDS_READ(11, environmentAlias);
+RECORDS_READ(12, reflectanceTable);
+RECORDS_WRITE(13, nextRays);
+RECORDS_WRITE(14, shadowRays);
+layout(push_constant) uniform Push { WaveParams params; };
 #include "path/light_sampling.glsl"
-#include "path/wave.glsl"
 #include "path/reflectance.glsl"
 #include "path/surface.glsl"
-#ifdef WITH_CACHE
-#include "path/cached_path.glsl"
-#endif
+#include "path/wave.glsl"
+#define TAP_BINDING 15
+#include "tap_light.glsl"
+#include "tap_vertex.glsl"
 
 // The item's slot in a queue; one atomic per subgroup. Slots decide nothing but the order of work.
 uint pushItem(uint counter, bool alive) {
@@ -77,15 +68,12 @@ void main() {
     uint sampleIndex = sampleOf(path);
 
     Surface s = loadSurface(alive ? hit.y : 0u, uintBitsToFloat(hit.zw), view);
-#ifdef WITH_CACHE
     float arrivalPdf = uintBitsToFloat(loadRecord(rays, slot * kRayRecords + 1u).w);
-    CachedPath cached = arrive(alive, path, pixel, s, view, uintBitsToFloat(hit.x), arrivalPdf, beta);
-    if (cached.counts) radiance[path].a += 1.0;
-    alive = cached.renders || cached.trains;
-    vec3 directLight = vec3(0.0);
-#endif
-    Frame frame = frameFromNormal(s.shadingNormal);
-    vec3 v = toLocal(frame, view);
+    Visit visit = arrive(alive, path, pixel, s, view, uintBitsToFloat(hit.x), arrivalPdf, beta);
+    alive = visit.goesOn;
+    vec3 directLight = vec3(0.0); // as the tap hears it
+    Frame local = frameFromNormal(s.shadingNormal);
+    vec3 v = toLocal(local, view);
     vec3 origin = s.position + s.geometricNormal * s.error;
     vec3 abcView = reflectanceAt(v.z, s.roughness);
     float mendView = diffuseMend(s.bsdf, abcView);
@@ -94,40 +82,36 @@ void main() {
     uint normalCode = encodeOctahedral(s.shadingNormal); // as a ray's emissive hit will find it
     if (kHasEmitters || kHasEnvironment) {
         float choice = kHasEmitters && kHasEnvironment
-                           ? unitFloat(randomBits(pixel, sampleIndex, lightChoiceBlock(params.depth), params.seed).x)
+                           ? unitFloat(randomBits(pixel, sampleIndex, lightChoiceBlock(params.depth), frame.seed).x)
                            : 0.0;
         LightSample light = sampleLight(
-            Receiver(origin, decodeOctahedral(normalCode)), randomBits(pixel, sampleIndex, lightBlock(params.depth), params.seed), choice);
-        vec3 l = toLocal(frame, light.direction);
+            Receiver(origin, decodeOctahedral(normalCode)), randomBits(pixel, sampleIndex, lightBlock(params.depth), frame.seed), choice);
+        vec3 l = toLocal(local, light.direction);
         float mend = min(mendView, diffuseMend(s.bsdf, reflectanceAt(l.z, s.roughness)));
         BsdfValue value = evaluateBsdf(s.bsdf, v, l, mend, pSpecular, kHasSpecular);
         bool reflects = l.z > 0.0 && dot(s.geometricNormal, light.direction) > 0.0 && light.pdf > 0.0;
         vec3 contribution =
             reflects ? beta * value.fCos * light.radiance * (powerHeuristic(light.pdf, value.pdf) / light.pdf) : vec3(0.0);
         bool counts = maxComponent(contribution) > 0.0;
-#ifdef WITH_CACHE
-        if (cached.trains && reflects) directLight = value.fCos * light.radiance * (powerHeuristic(light.pdf, value.pdf) / light.pdf);
+        if (visit.listens && reflects)
+            directLight = value.fCos * light.radiance * (powerHeuristic(light.pdf, value.pdf) / light.pdf);
         counts = counts || maxComponent(directLight) > 0.0;
-#endif
         pushShadowRay(alive && counts, origin, light.tMax, light.direction, path, contribution);
     }
 
-    vec4 u = unitFloats(randomBits(pixel, sampleIndex, bsdfBlock(params.depth), params.seed));
+    vec4 u = unitFloats(randomBits(pixel, sampleIndex, bsdfBlock(params.depth), frame.seed));
     vec3 l = sampleBsdf(s.bsdf, v, u.xyz, pSpecular, kHasSpecular);
-    vec3 direction = toWorld(frame, l);
+    vec3 direction = toWorld(local, l);
     float mend = min(mendView, diffuseMend(s.bsdf, reflectanceAt(l.z, s.roughness)));
     BsdfValue value = evaluateBsdf(s.bsdf, v, l, mend, pSpecular, kHasSpecular);
     bool reflects = l.z > 0.0 && dot(s.geometricNormal, direction) > 0.0 && value.pdf > 0.0;
     vec3 nextBeta = reflects ? beta * value.fCos / value.pdf : vec3(0.0);
     // Russian roulette after bounce 3, on the throughput itself.
     float survival = params.depth >= 3u ? min(maxComponent(nextBeta), 1.0) : 1.0;
-    bool scatters = maxComponent(nextBeta) > 0.0;
-#ifdef WITH_CACHE
     vec3 throughput = reflects ? value.fCos / value.pdf : vec3(0.0);
-    survival = survivalOf(cached, survival, throughput);
-    scatters = scatters || (!cached.renders && maxComponent(throughput) > 0.0);
-    leave(cached, directLight, throughput / max(survival, 1e-30));
-#endif
+    survival = survivalOf(visit, survival, throughput);
+    bool scatters = maxComponent(nextBeta) > 0.0 || goesOnUnseen(visit, throughput);
+    leave(visit, directLight, throughput / max(survival, 1e-30));
     bool survives = scatters && u.w < survival;
     pushRay(alive && survives, origin, direction, path, nextBeta / max(survival, 1e-30), value.pdf, normalCode);
 }

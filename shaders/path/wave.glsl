@@ -1,4 +1,4 @@
-// Which pixel and sample a path of the wave is (shared/path.h). `params` has firstPixel, sampleIndex and log2Samples.
+// Which pixel and sample a path of the wave is. `params` is a WaveParams (shared/path.h).
 #ifndef IRRADIA_PATH_WAVE_GLSL
 #define IRRADIA_PATH_WAVE_GLSL
 

@@ -47,14 +47,14 @@ struct CacheRule {
     uint lastDepth;   // at which training paths end in the cache, whatever their spread
     uint tilesX;      // one training path a tile and frame; 0 = none. Those of waves that are not seen have the numbers after these
     uint tilesY;
-    uint width; // of the picture
-    uint height;
     float unbiasedShare; // of training paths that end by themselves
     float residualShare; // of paths that go on past their query, so that the whole is unbiased; 0 = none
     float trainingSpread; // c of the suffixes
     uint deepest;         // number of the last ray of rendering paths, which only meets emission
     uint firstTraining;   // training path from which on paths and vertices are bound, a multiple of kTileRows
     uint waveTraining;    // that of the first path of a wave that is not seen
+    uint pad0;            // to a multiple of 16 bytes
+    uint pad1;
 };
 SHARED_CONST uint kNoDepth = 0xffffffffu;
 

@@ -21,55 +21,45 @@ SHARED_CONST uint kViewTrainingDensity = 3u; // vertices recorded for training
 
 // A wave: 2^log2Samples consecutive samples of each of a run of pixels. Path i of the wave is sample
 // sampleIndex + i % 2^log2Samples of pixel firstPixel + i / 2^log2Samples (path/wave.glsl).
+struct WaveParams {
+    uint firstPixel;
+    uint sampleIndex; // of its first path
+    uint log2Samples; // of a pixel
+    uint paths;
+    uint depth;       // number of the ray being handled; 0 = camera ray
+    uint queueParity; // depth & 1: which counter of the RayQueue pair is current
+};
 
 // From this number on pixels stand for camera paths that are not seen and only train: number n of them looks through pixel
 // n % (width * height). Their random numbers are their own.
 SHARED_CONST uint kFirstTrainingPixel = 0x40000000u;
-
-struct CameraParams {
-    vec4 position; // xyz; w unused
-    vec4 forward;  // unit
-    vec4 right;    // times tan(vfov / 2) * aspect, or half the view's width if orthographic
-    vec4 up;       // times tan(vfov / 2), or half the view's height
-    uint width;
-    uint height;
-    uint firstPixel;
-    uint pathCount;
-    uint sampleIndex;
-    uint seed;
-    uint log2Samples;
-    uint isOrthographic; // 1 = rays are parallel, 0 = they leave one point
-};
-
 // Paths that no pixel sees: they start at points of the scene's surfaces. Their numbers take the place of pixels, beyond
 // those of any picture, so that their random numbers are their own.
 SHARED_CONST uint kFirstSurfacePath = 0x80000000u;
 
-struct SurfacePathParams {
-    uint firstPath; // of the wave, kFirstSurfacePath + its number
-    uint pathCount;
-    uint sampleIndex;
+// What all waves of a frame share: a uniform buffer, CameraConstants behind FrameConstants (path/frame.glsl).
+struct FrameConstants {
     uint seed;
+    uint width; // of the picture
+    uint height;
     uint triangles; // of the scene
-    float distance; // from which the points are seen
-    uint pad0;
-    uint pad1;
-};
-
-// One step of the loop over bounces; also what the handle_* kernels and scatter need to know of the scene.
-struct BounceParams {
-    uint depth; // number of the ray being handled; 0 = camera ray
-    uint firstPixel;
-    uint sampleIndex;
-    uint seed;
     uint lightCount;
     uint environmentWidth; // 1 x 1 for a constant
     uint environmentHeight;
     float environmentProbability; // of sampling the environment rather than the emissive triangles
-    uint queueParity;             // depth & 1: which counter of the RayQueue pair is current
-    uint log2Samples;             // of a pixel in the wave
-    uint pad0;                    // to a multiple of 16 bytes
-    uint pad1;
+};
+
+struct CameraConstants {
+    vec4 position; // xyz; w: 1 = rays are parallel, 0 = they leave one point
+    vec4 forward;  // unit
+    vec4 right;    // times tan(vfov / 2) * aspect, or half the view's width if orthographic
+    vec4 up;       // times tan(vfov / 2), or half the view's height
+};
+
+// Paths that start at surfaces.
+struct SurfaceRayParams {
+    WaveParams wave;
+    float distance; // from which the points are seen
 };
 
 // begin_bounce writes the indirect arguments: three uints for tracing and three for per-item passes.
@@ -86,7 +76,7 @@ SHARED_CONST uint kDispatchArguments = 8u; // size in uints
 // The film, per pixel: FilmPixel in floats. Welford's running mean and sum of squared deviations over frames. A pass binds the
 // film and the layers of its wave's pixels alone.
 SHARED_CONST uint kFilmVectors = 2u;    // vec4: mean rgb, frames; M2 rgb, unused
-SHARED_CONST uint kSurfaceVectors = 3u; // vec4 sums: albedo rgb, hits; normal xyz, z; position xyz, unused
+SHARED_CONST uint kLayerVectors = 3u;   // vec4 sums: albedo rgb, hits; normal xyz, z; position xyz, unused
 
 struct FilmParams {
     uint pixels;
@@ -97,15 +87,6 @@ struct FilmParams {
 };
 SHARED_CONST uint kFirstSamples = 1u; // the wave holds a frame's first samples of its pixels
 SHARED_CONST uint kLastSamples = 2u;  // and its last: then the frame is added to the film
-
-struct SurfaceParams {
-    uint pixels;
-    uint log2Samples; // of a pixel in the wave
-    uint pad0;
-    uint pad1;
-    vec4 cameraPosition;
-    vec4 cameraForward; // z of the surface = dot(p - position, forward)
-};
 
 SHARED_END
 #endif

@@ -11,24 +11,25 @@ RECORDS_READ(1, attributes);
 RECORDS_READ(2, materials);
 RECORDS_READ(3, textures);
 HALVES_READ(4, texels);
-#define FIRST_TRAINING_BINDING 5
+#define TAP_BINDING 5
 RECORDS_WRITE(8, queries);
 RECORDS_WRITE(9, queryWeights);
 RECORDS_WRITE(10, trainingQueries);
 COUNTERS(11, cacheCounters);
 RECORDS_WRITE(12, results);
 layout(push_constant) uniform Push { CacheTilesParams harness; };
-BounceParams params; // of this invocation
+FrameConstants frame;
+WaveParams params; // of this invocation
 CacheRule rule;
-#include "path/cached_path.glsl"
+#include "path/taps/radiance_cache/cached_path.glsl"
 
 void main() {
     uint i = gl_GlobalInvocationID.x, pixels = harness.width * harness.height;
     if (i >= pixels * harness.frames) return;
     params.sampleIndex = i / pixels;
-    params.seed = harness.seed;
-    rule.width = harness.width;
-    rule.height = harness.height;
+    frame.seed = harness.seed;
+    frame.width = harness.width;
+    frame.height = harness.height;
     rule.tilesX = harness.tilesX;
     rule.tilesY = harness.tilesY;
     storeRecord(results, i, uvec4(trainingPathOf(0u, i % pixels), 0u, 0u, 0u));

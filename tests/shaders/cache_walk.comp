@@ -11,15 +11,16 @@ RECORDS_READ(1, attributes);
 RECORDS_READ(2, materials);
 RECORDS_READ(3, textures);
 HALVES_READ(4, texels);
-#define FIRST_TRAINING_BINDING 5
+#define TAP_BINDING 5
 RECORDS_WRITE(8, queries);
 RECORDS_WRITE(9, queryWeights);
 RECORDS_WRITE(10, trainingQueries);
 COUNTERS(11, cacheCounters);
 RECORDS_READ(12, vertices); // kWalkVertexRecords each, those of a path side by side
 layout(push_constant) uniform Push { CacheRule rule; CacheWalkParams harness; };
-BounceParams params; // of this step
-#include "path/cached_path.glsl"
+FrameConstants frame;
+WaveParams params; // of this step
+#include "path/taps/radiance_cache/cached_path.glsl"
 
 vec4 part(uint vertex, uint index) { return uintBitsToFloat(loadRecord(vertices, vertex * kWalkVertexRecords + index)); }
 
@@ -29,7 +30,9 @@ void main() {
     uint first = min(path, harness.paths - 1u) * harness.depths; // all lanes stay for the ballots
     vec3 beta = vec3(1.0);
     params.sampleIndex = harness.sampleIndex;
-    params.seed = harness.seed;
+    frame.seed = harness.seed;
+    frame.width = harness.width;
+    frame.height = 1u;
     for (params.depth = 0u; params.depth < harness.depths; ++params.depth) {
         uint v = first + params.depth;
         Surface s;
@@ -40,12 +43,12 @@ void main() {
         s.bsdf.alpha = part(v, 3u).w;
         s.bsdf.diffuse = part(v, 4u).rgb;
         s.bsdf.specularF0 = part(v, 5u).rgb;
-        CachedPath c = arrive(alive, path, path, s, part(v, 1u).xyz, part(v, 0u).w, part(v, 1u).w, beta);
+        CachedPath c = visitVertex(alive, path, path, s, part(v, 1u).xyz, part(v, 0u).w, part(v, 1u).w, beta);
         alive = c.renders || c.trains;
-        leave(c, part(v, 7u).rgb, part(v, 6u).rgb);
-        if (alive) gatherDirectLight(path);
+        leaveVertex(c, part(v, 7u).rgb, part(v, 6u).rgb);
+        if (alive) hearDirectLight(path);
         alive = alive && floatBitsToUint(part(v, 4u).w) != 0u;
-        if (alive) gatherEmission(path, part(v, 8u).rgb);
+        if (alive) hearEmission(path, part(v, 8u).rgb);
         beta *= part(v, 6u).rgb;
     }
 }

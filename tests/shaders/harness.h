@@ -40,7 +40,7 @@ struct PermuteParams {
     uint key;
 };
 
-// Follows the BounceParams that the functions of shaders/path expect.
+// Follows the FrameConstants that the functions of shaders/path expect.
 struct LightHarnessParams {
     vec4 origin;  // xyz: the shaded point; w unused
     vec4 normal;  // xyz: its normal; w: roughness of its BSDF
@@ -71,6 +71,7 @@ struct CacheWalkParams {
     uint depths; // vertices of each
     uint sampleIndex;
     uint seed;
+    uint width; // of a picture of one row
 };
 // Of each vertex: position, distance; view, pdf; geometric normal, roughness; shading normal, the BSDF's
 // alpha; diffuse, 1 as uint bits where the path goes on; specular; throughput; light that arrives; emission

@@ -8,7 +8,7 @@ RECORDS_READ(5, lights);
 RECORDS_READ(6, environment);
 RECORDS_READ(7, environmentAlias);
 layout(push_constant) uniform Push {
-    BounceParams params;
+    FrameConstants frame;
     LightHarnessParams harness;
 };
 #include "path/light_sampling.glsl"
@@ -51,8 +51,8 @@ float hitPdf(LightHit hit, vec3 direction) {
 }
 
 LightSample sampleLightFor(uint item, uint index) {
-    uvec4 random = randomBits(item, index, lightBlock(0u), params.seed);
-    uint choice = randomBits(item, index, lightChoiceBlock(0u), params.seed).x;
+    uvec4 random = randomBits(item, index, lightBlock(0u), frame.seed);
+    uint choice = randomBits(item, index, lightChoiceBlock(0u), frame.seed).x;
     LightSample light = sampleLight(harnessReceiver(), random, unitFloat(choice));
     light.pdf *= kPdfFault;
     return light;

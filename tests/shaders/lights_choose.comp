@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#pragma folders path/light_samplers/power_or_tree
 // Choices of an emissive triangle by the hierarchy of lights at one point.
 #include "lib/kernel.glsl"
 #include "shared/path.h"
@@ -11,7 +12,7 @@ RECORDS_WRITE(8, choices); // light, chance, chance that is found for the light
 void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= harness.count) return;
-    LightChoice choice = chooseLight(harnessReceiver(), randomBits(i, 0u, lightBlock(0u), params.seed).x);
+    LightChoice choice = chooseLight(harnessReceiver(), randomBits(i, 0u, lightBlock(0u), frame.seed).x);
     float found = chanceOfLight(choice.light, harnessReceiver());
     storeRecord(choices, i, uvec4(choice.light, floatBitsToUint(vec2(choice.chance, found)), 0u));
 }

@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#pragma folders path/light_samplers/power_or_tree
 // Direct light at one point: sums of the estimates by light sampling, by BSDF sampling, and by both with multiple
 // importance sampling, as the path tracer combines them.
 #include "lib/kernel.glsl"
@@ -13,7 +14,7 @@ RECORDS_WRITE(9, sums); // 3 each, one for each strategy: light sampling, BSDF s
 #include "path/reflectance.glsl"
 
 struct Vertex {
-    Frame frame;
+    Frame local;
     vec3 view;
     Bsdf bsdf;
     float roughness;
@@ -23,8 +24,8 @@ struct Vertex {
 
 Vertex shadedPoint() {
     Vertex x;
-    x.frame = frameFromNormal(harness.normal.xyz);
-    x.view = toLocal(x.frame, harness.view.xyz);
+    x.local = frameFromNormal(harness.normal.xyz);
+    x.view = toLocal(x.local, harness.view.xyz);
     x.roughness = harness.normal.w;
     x.bsdf = makeBsdf(vec3(0.8, 0.6, 0.4), harness.view.w, x.roughness, vec3(0.04), 1.0);
     vec3 abc = reflectanceAt(x.view.z, x.roughness);
@@ -67,18 +68,18 @@ void main() {
     vec3 byBoth = vec3(0.0);
     for (uint k = 0u; k < harness.samples; ++k) {
         LightSample light = sampleLightFor(item, k);
-        vec3 l = toLocal(x.frame, light.direction);
+        vec3 l = toLocal(x.local, light.direction);
         if (l.z > 0.0 && light.pdf > 0.0 && castRay(harness.origin.xyz, light.direction).t >= light.tMax) {
             BsdfValue value = evaluateVertex(x, l);
             vec3 estimate = value.fCos * light.radiance / light.pdf;
             byLight += estimate;
             byBoth += estimate * powerHeuristic(light.pdf, value.pdf);
         }
-        vec4 u = unitFloats(randomBits(item, k, bsdfBlock(0u), params.seed));
+        vec4 u = unitFloats(randomBits(item, k, bsdfBlock(0u), frame.seed));
         l = sampleBsdf(x.bsdf, x.view, u.xyz, x.pSpecular, kHasSpecular);
         if (l.z > 0.0) {
             BsdfValue value = evaluateVertex(x, l);
-            Incident incident = incidentFrom(toWorld(x.frame, l));
+            Incident incident = incidentFrom(toWorld(x.local, l));
             vec3 estimate = value.fCos * incident.radiance / value.pdf;
             byBsdf += estimate;
             byBoth += estimate * powerHeuristic(value.pdf, incident.pdf);

@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#pragma folders path/light_samplers/power_or_tree
 // Light samples of one point, and the density that a ray in the same direction finds.
 #include "lib/kernel.glsl"
 #include "shared/path.h"

@@ -13,7 +13,7 @@ std::vector<Specialisation> fitted(const SceneNeeds& needs, std::vector<Speciali
 }
 
 struct Push {
-    gpu::BounceParams params;
+    gpu::FrameConstants frame;
     gpu::LightHarnessParams harness;
 };
 
@@ -26,11 +26,11 @@ LightHarness::LightHarness(const Scene& scene, const KernelSource& source, std::
 std::vector<glm::uvec4> LightHarness::run(const gpu::LightHarnessParams& harness, uint32_t seed,
                                           size_t records, const std::vector<BufferRange>& more) {
     Push push{};
-    push.params.seed = seed;
-    push.params.lightCount = scene_.lightCount;
-    push.params.environmentWidth = scene_.environmentWidth;
-    push.params.environmentHeight = scene_.environmentHeight;
-    push.params.environmentProbability = scene_.environmentProbability;
+    push.frame.seed = seed;
+    push.frame.lightCount = scene_.lightCount;
+    push.frame.environmentWidth = scene_.environmentWidth;
+    push.frame.environmentHeight = scene_.environmentHeight;
+    push.frame.environmentProbability = scene_.environmentProbability;
     push.harness = harness;
     std::vector<BufferRange> inputs{scene_.geometry,    scene_.attributes,      scene_.materials,
                                     scene_.textures,    scene_.texels,          scene_.lights,

@@ -1,15 +1,12 @@
 // Choice of an emissive triangle by what it may send to a receiver: Conty Estevez and Kulla 2018, "Importance Sampling of
-// Many Lights with Adaptive Tree Splitting". Bindings: `lights` (records); `params` is a BounceParams.
+// Many Lights with Adaptive Tree Splitting". Bindings: `lights` (quads); `frame` is
+// FrameConstants.
 #ifndef IRRADIA_PATH_LIGHT_TREE_GLSL
 #define IRRADIA_PATH_LIGHT_TREE_GLSL
 #include "lib/math.glsl"
 #include "lib/rng.glsl"
+#include "path/light_choice.glsl"
 #include "shared/scene.h"
-
-struct Receiver {
-    vec3 point;
-    vec3 normal; // unit: light comes from its side alone
-};
 
 struct LightBranch {
     float importance;
@@ -25,7 +22,7 @@ float cosOfExcess(float cosA, float cosB) {
 // Power over squared distance, times two cosines at their largest for a direction to the point from within the node's
 // sphere: to a normal in the node's cone, and to the receiver's normal: the paper's importance.
 LightBranch lightBranch(uint node, Receiver receiver) {
-    uint at = params.lightCount + node * kLightNodeRecords;
+    uint at = frame.lightCount + node * kLightNodeRecords;
     vec4 sphere = uintBitsToFloat(loadRecord(lights, at));
     uvec4 r = loadRecord(lights, at + 1u);
     vec3 to = receiver.point - sphere.xyz;
@@ -55,12 +52,7 @@ LightPair lightPair(uint child, Receiver receiver) {
     return LightPair(a.importance / max(sum, 1e-37), a.child, b.child, sum > 1e-37);
 }
 
-uint rootChild() { return loadRecord(lights, params.lightCount + 1u).w; }
-
-struct LightChoice {
-    uint light;
-    float chance; // 0 = none of the lights reaches the receiver
-};
+uint rootChild() { return loadRecord(lights, frame.lightCount + 1u).w; }
 
 LightChoice chooseLight(Receiver receiver, uint random) {
     uint child = rootChild();

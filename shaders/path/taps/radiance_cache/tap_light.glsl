@@ -1,11 +1,11 @@
-// Light that reaches a training path while it is traced (shared/cache.h). Three bindings from FIRST_TRAINING_BINDING on.
-#ifndef IRRADIA_PATH_TRAINING_LIGHT_GLSL
-#define IRRADIA_PATH_TRAINING_LIGHT_GLSL
+// Light that reaches a training path while it is traced (shared/cache.h).
+#ifndef IRRADIA_TAP_LIGHT_GLSL
+#define IRRADIA_TAP_LIGHT_GLSL
 #include "shared/cache.h"
 
-layout(set = 0, binding = FIRST_TRAINING_BINDING, std430) buffer PathStates { uvec4 pathStates[]; };
-layout(set = 0, binding = FIRST_TRAINING_BINDING + 1, std430) buffer TrainingPaths { uvec4 trainingPaths[]; };
-layout(set = 0, binding = FIRST_TRAINING_BINDING + 2, std430) buffer TrainingVertices { uvec4 trainingVertices[]; };
+layout(set = 0, binding = TAP_BINDING, std430) buffer PathStates { uvec4 pathStates[]; };
+layout(set = 0, binding = TAP_BINDING + 1, std430) buffer TrainingPaths { uvec4 trainingPaths[]; };
+layout(set = 0, binding = TAP_BINDING + 2, std430) buffer TrainingVertices { uvec4 trainingVertices[]; };
 
 // The last recorded vertex of a training path gathers light; none does before the first is recorded.
 void gather(uint training, uint vertices, vec3 light) {
@@ -15,7 +15,7 @@ void gather(uint training, uint vertices, vec3 light) {
 }
 
 // Emission that the path's ray has met.
-void gatherEmission(uint path, vec3 emitted) {
+void hearEmission(uint path, vec3 emitted) {
     uint training = pathStates[path].z;
     if (training == 0u) return;
     uvec4 weight = trainingPaths[(training - 1u) * kTrainingPathVectors];
@@ -23,7 +23,7 @@ void gatherEmission(uint path, vec3 emitted) {
 }
 
 // The light sample in flight, which has met nothing.
-void gatherDirectLight(uint path) {
+void hearDirectLight(uint path) {
     uint training = pathStates[path].z;
     if (training == 0u) return;
     uint at = (training - 1u) * kTrainingPathVectors;

@@ -1,12 +1,12 @@
 // A path of a renderer with a cache (shared/cache.h): where it asks, where it ends, and what it records for training.
-// Bindings: those of training_light.glsl, then `queries`, `queryWeights`, `trainingQueries` (records) and `cacheCounters`;
-// `params` is a BounceParams, `rule` a CacheRule.
+// Bindings: those of tap_light.glsl, then `queries`, `queryWeights`, `trainingQueries` (quads) and `cacheCounters`;
+// `params` is a WaveParams, `frame` FrameConstants, `rule` a CacheRule.
 #ifndef IRRADIA_PATH_CACHED_PATH_GLSL
 #define IRRADIA_PATH_CACHED_PATH_GLSL
 #include "lib/math.glsl"
 #include "lib/rng.glsl"
 #include "path/surface.glsl"
-#include "path/training_light.glsl"
+#include "path/taps/radiance_cache/tap_light.glsl"
 #include "path/wave.glsl"
 #include "shared/network.h"
 
@@ -33,13 +33,13 @@ uint tileBegin(uint tile, uint tiles, uint size) { return (tile * size + tiles -
 uint trainingPathOf(uint path, uint pixel) {
     if (rule.tilesX == 0u) return 0u;
     if (pixel >= kFirstTrainingPixel) return rule.waveTraining - rule.firstTraining + path + 1u;
-    uvec2 at = uvec2(pixel % rule.width, pixel / rule.width);
+    uvec2 at = uvec2(pixel % frame.width, pixel / frame.width);
     uvec2 tiles = uvec2(rule.tilesX, rule.tilesY);
-    uvec2 tile = at * tiles / uvec2(rule.width, rule.height);
-    uvec2 low = uvec2(tileBegin(tile.x, tiles.x, rule.width), tileBegin(tile.y, tiles.y, rule.height));
-    uvec2 high = uvec2(tileBegin(tile.x + 1u, tiles.x, rule.width), tileBegin(tile.y + 1u, tiles.y, rule.height));
+    uvec2 tile = at * tiles / uvec2(frame.width, frame.height);
+    uvec2 low = uvec2(tileBegin(tile.x, tiles.x, frame.width), tileBegin(tile.y, tiles.y, frame.height));
+    uvec2 high = uvec2(tileBegin(tile.x + 1u, tiles.x, frame.width), tileBegin(tile.y + 1u, tiles.y, frame.height));
     uint index = tile.y * tiles.x + tile.x;
-    uvec4 random = randomBits(index, params.sampleIndex, kTileBlock, params.seed);
+    uvec4 random = randomBits(index, params.sampleIndex, kTileBlock, frame.seed);
     bool chosen = all(equal(at, low + uvec2(uniformIndex(random.x, high.x - low.x), uniformIndex(random.y, high.y - low.y))));
     return chosen && sampleInWave(path) == 0u ? index - rule.firstTraining + 1u : 0u;
 }
@@ -49,7 +49,7 @@ CachedPath beginPath(uint path, uint pixel, float distance, float cosine) {
     CachedPath c;
     c.path = path;
     c.training = trainingPathOf(path, pixel);
-    float choice = unitFloat(randomBits(pixel, sampleOf(path), kCameraBlock, params.seed).z);
+    float choice = unitFloat(randomBits(pixel, sampleOf(path), kCameraBlock, frame.seed).z);
     c.flags = (choice < rule.unbiasedShare ? kPathUnbiased : 0u) | (pixel >= kFirstTrainingPixel ? kPathEnded : 0u);
     c.a0 = distance * distance / (4.0 * kPi * cosine);
     c.spread = 0.0;
@@ -148,7 +148,7 @@ void endInCache(CachedPath c, CacheInputs inputs) {
 }
 
 // A path arrives at a vertex. `beta` is its weight for the picture, and becomes that of what follows: 0 where it ends.
-CachedPath arrive(bool alive, uint path, uint pixel, Surface s, vec3 view, float distance, float pdf, inout vec3 beta) {
+CachedPath visitVertex(bool alive, uint path, uint pixel, Surface s, vec3 view, float distance, float pdf, inout vec3 beta) {
     float cosine = max(abs(dot(s.geometricNormal, view)), 1e-6);
     CachedPath c;
     if (params.depth == 0u)
@@ -164,7 +164,7 @@ CachedPath arrive(bool alive, uint path, uint pixel, Surface s, vec3 view, float
     bool isCached = isInBox(s.position) && !delta;
 
     bool asks = beforeQuery && isCached && (hasSpread(c, rule.boxHigh.w) || params.depth >= rule.endDepth);
-    float choice = unitFloat(randomBits(pixel, sampleOf(path), lightChoiceBlock(params.depth), params.seed).y);
+    float choice = unitFloat(randomBits(pixel, sampleOf(path), lightChoiceBlock(params.depth), frame.seed).y);
     bool goesOn = choice < rule.residualShare;
     float share = max(rule.residualShare, 1e-6);
     ask(asks, c, inputs, goesOn ? beta * (1.0 - 1.0 / share) : beta);
@@ -191,19 +191,13 @@ CachedPath arrive(bool alive, uint path, uint pixel, Surface s, vec3 view, float
 }
 
 // The path leaves the vertex: with a light sample (which its shadow ray may take away again) and with a ray.
-void leave(CachedPath c, vec3 directLight, vec3 throughput) {
+void leaveVertex(CachedPath c, vec3 directLight, vec3 throughput) {
     if (c.trains) {
         uint at = (c.training - 1u) * kTrainingPathVectors;
         trainingPaths[at] = uvec4(floatBitsToUint(c.weight * throughput), c.vertices);
         trainingPaths[at + 1u] = uvec4(floatBitsToUint(c.weight * directLight), 0u);
     }
     if (c.renders || c.trains) storePath(c);
-}
-
-// Probability with which Russian roulette lets the path go on: that of the picture; past its end only unbiased suffixes play.
-float survivalOf(CachedPath c, float renderSurvival, vec3 throughput) {
-    if (c.renders) return renderSurvival;
-    return (c.flags & kPathUnbiased) != 0u ? min(maxComponent(throughput), 1.0) : 1.0;
 }
 
 #endif

@@ -1,0 +1,120 @@
+#include "engine/path/bounces.h"
+
+#include "engine/path/scene_bindings.h"
+#include "kernels/path.h"
+#include "shared/queue.h"
+#include "shared/trace.h"
+
+namespace irradia {
+
+Bounces::Bounces(Device& device, const GpuScene& scene, const PathTracerOptions& options,
+                 const WaveBuffers& buffers, const Buffer& constants)
+    : scene_(scene)
+    , buffers_(buffers)
+    , constants_(constants)
+    , traceArguments_(buffers.arguments, gpu::kTraceArguments * 4, 12)
+    , itemArguments_(buffers.arguments, gpu::kItemArguments * 4, 12)
+    , begin_(device, kernels::begin_bounce)
+    , intersectClosest_(device, kernels::intersect_closest)
+    , intersectShadow_(device, kernels::intersect_shadow) {
+    const KernelOptions fit = fittedTo(scene.needs, options.view);
+    handleEscapedRays_ = Kernel(device, *options.kernels.handleEscapedRays, fit);
+    handleEmissiveHits_ = Kernel(device, *options.kernels.handleEmissiveHits, fit);
+    scatter_ = Kernel(device, *options.kernels.scatter, fit);
+    addDirectLight_ = Kernel(device, *options.kernels.addDirectLight);
+}
+
+void Bounces::add(FrameGraph& graph, const gpu::WaveParams& params, bool areTraced, bool scatters,
+                  const PathTap* tap) const {
+    begin(graph, params, areTraced);
+    if (areTraced) {
+        intersect(graph, params);
+        if (scene_.needs.environment) handleEscapedRays(graph, params, tap);
+        if (scene_.needs.emitters) handleEmissiveHits(graph, params, tap);
+    }
+    graph.cut();
+    if (!scatters || scene_.triangles == 0) return;
+    scatter(graph, params, tap);
+    connect(graph, tap);
+    graph.cut();
+}
+
+void Bounces::begin(FrameGraph& graph, const gpu::WaveParams& params, bool areTraced) const {
+    const gpu::BeginBounceParams begin{params.queueParity,
+                                       intersectClosest_.workgroupSize() * gpu::kRaysPerLane,
+                                       scatter_.workgroupSize(), areTraced ? 1u : 0u};
+    graph.pass(begin_)
+        .readWrite(buffers_.counters)
+        .readWrite(buffers_.arguments)
+        .push(begin)
+        .dispatchGroups(1);
+}
+
+void Bounces::intersect(FrameGraph& graph, const gpu::WaveParams& params) const {
+    graph.pass(intersectClosest_)
+        .read(scene_.bvh)
+        .read(buffers_.rays[params.queueParity])
+        .read(buffers_.counters)
+        .write(buffers_.hits)
+        .push(gpu::TraceParams{gpu::kRayCounter + params.queueParity, scene_.bvhRoot})
+        .dispatchIndirect(traceArguments_);
+}
+
+void Bounces::handleEscapedRays(FrameGraph& graph, const gpu::WaveParams& params, const PathTap* tap) const {
+    Pass pass = graph.pass(handleEscapedRays_);
+    pass.read(constants_)
+        .read(buffers_.rays[params.queueParity])
+        .read(buffers_.hits)
+        .read(buffers_.counters)
+        .readWrite(buffers_.radiance)
+        .read(scene_.lights)
+        .read(scene_.environment);
+    if (tap) pass.bind(tap->light);
+    pass.push(params).dispatchIndirect(itemArguments_);
+}
+
+void Bounces::handleEmissiveHits(FrameGraph& graph, const gpu::WaveParams& params, const PathTap* tap) const {
+    Pass pass = graph.pass(handleEmissiveHits_);
+    pass.read(constants_)
+        .read(buffers_.rays[params.queueParity])
+        .read(buffers_.hits)
+        .read(buffers_.counters)
+        .readWrite(buffers_.radiance);
+    readSurfaces(pass, scene_).read(scene_.lights);
+    if (tap) pass.bind(tap->light);
+    pass.push(params).dispatchIndirect(itemArguments_);
+}
+
+void Bounces::scatter(FrameGraph& graph, const gpu::WaveParams& params, const PathTap* tap) const {
+    Pass pass = graph.pass(scatter_);
+    pass.read(constants_)
+        .read(buffers_.rays[params.queueParity])
+        .read(buffers_.hits)
+        .readWrite(buffers_.counters);
+    readLights(readSurfaces(pass, scene_), scene_)
+        .read(scene_.reflectanceTable)
+        .write(buffers_.rays[1 - params.queueParity])
+        .write(buffers_.shadowRays);
+    if (tap) pass.bind(tap->light).bind(tap->vertex);
+    pass.push(params).dispatchIndirect(itemArguments_);
+}
+
+// The light samples: there is at most one a ray.
+void Bounces::connect(FrameGraph& graph, const PathTap* tap) const {
+    graph.pass(intersectShadow_)
+        .read(scene_.bvh)
+        .read(buffers_.shadowRays)
+        .read(buffers_.counters)
+        .write(buffers_.visibility)
+        .push(gpu::TraceParams{gpu::kShadowRayCounter, scene_.bvhRoot})
+        .dispatchIndirect(traceArguments_);
+    Pass pass = graph.pass(addDirectLight_);
+    pass.read(buffers_.shadowRays)
+        .read(buffers_.visibility)
+        .read(buffers_.counters)
+        .readWrite(buffers_.radiance);
+    if (tap) pass.bind(tap->light);
+    pass.dispatchIndirect(itemArguments_);
+}
+
+} // namespace irradia

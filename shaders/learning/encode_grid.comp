@@ -14,7 +14,7 @@ QUADS_WRITE(5, encoded);
 const uint kLevelsTogether = kFeatures < 4u ? 4u / kFeatures : 1u; // in a quad
 const uint kValueQuads = ((kMean ? 1u : kLevels) * kFeatures + 3u) / 4u;
 
-// The features of an entry within the record they stand in.
+// The features of an entry within the quad they stand in.
 vec4 alignedFeatures(vec4 record, uint entry) {
     if (kFeatures == 1u) {
         vec2 pair = (entry & 2u) != 0u ? record.zw : record.xy;

@@ -6,10 +6,11 @@
 #include "lib/kernel.glsl"
 #include "lib/math.glsl"
 #include "learning/state.glsl"
+#include "shared/constants.h"
 #include "shared/network.h"
 
-layout(constant_id = 2) const uint kLoss = kLossL2;
-layout(constant_id = 3) const uint kOutputs = 3u;
+layout(constant_id = kConstantLoss) const uint kLoss = kLossL2;
+layout(constant_id = kConstantLossOutputs) const uint kOutputs = 3u;
 const uint kQuads = (kOutputs + 3u) / 4u;
 
 STATE(0);

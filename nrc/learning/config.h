@@ -1,11 +1,12 @@
 // A model as JSON describes it, with tiny-cuda-nn's keys: encoding, network, loss, optimizer.
 //
-//     {"encoding": {"otype": "HashGrid", "n_levels": 8, ...}, "network": {"otype": "FullyFusedMLP",
-//     "n_neurons": 64, ...},
-//      "loss": {"otype": "RelativeL2Luminance", "epsilon": 0.01}, "optimizer": {"otype": "Ema", "decay":
-//      0.99, "nested": {"otype": "Adam", ...}}}
+//     {"encoding": {"otype": "HashGrid", "n_levels": 8, ...},
+//      "network": {"otype": "FullyFusedMLP", "n_neurons": 64, ...},
+//      "loss": {"otype": "RelativeL2Luminance", "epsilon": 0.01},
+//      "optimizer": {"otype": "Ema", "decay": 0.99, "nested": {"otype": "Adam", ...}}}
 //
-// A model says what it is: a key may be left out only where the struct's comment says what that means.
+// A model says what it is: a key may be left out only where the struct's comment, or the encoding's file in
+// nrc/learning/encodings, says what that means.
 #pragma once
 
 #include <cstdint>
@@ -45,8 +46,8 @@ struct NetworkConfig {
     uint32_t hiddenLayers = 5; // n_hidden_layers, 1 to 8
     // What follows may be left out, as may the only "otype" and "activation" there are.
     OutputActivation outputActivation = OutputActivation::None;
-    Precision precision =
-        Precision::Float; // "precision": "Float" or "Half": weights and activations; sums are single
+    // "precision": "Float" or "Half", of weights and activations; sums are single.
+    Precision precision = Precision::Float;
     NetworkForm form = NetworkForm::Auto; // "form": "Auto", "Subgroup", "Workgroup"
 
     bool operator==(const NetworkConfig&) const = default;

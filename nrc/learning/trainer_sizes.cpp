@@ -69,8 +69,8 @@ std::vector<Device::PlannedBuffer> TrainerSizes::planned() const {
         {"layer gradients", shape.layerGradientBytes(part)},
         {"gradient by encoded inputs", encodedGradientBytes()},
         {"partial weight gradients", shape.partialBytes(batch.rows)},
-        {"packed weights", packedBytes()},
-        {"packed weights of predictions", packedBytes()},
+        {"packed weights", shape.packedBytes()},
+        {"packed weights of predictions", shape.packedBytes()},
         {"encoded queries", encodedBytes(inferRows)},
     };
     // Values, moments and averages, and gradients: floats of weights, 64-bit sums of features.

@@ -9,12 +9,16 @@
 #include "tests/support/whole_model.h"
 #include <catch2/catch_test_macros.hpp>
 #include <cmath>
+#include <filesystem>
 #include <fmt/format.h>
+#include <fstream>
 
 using namespace irradia;
 using namespace irradia::test;
 
 namespace {
+
+namespace fs = std::filesystem;
 
 EncodingKind square() {
     return {.otype = "Square",
@@ -120,6 +124,28 @@ TEST_CASE("a model that has it learns") {
     for (int step = 0; step < 200; ++step) harness.train(records);
     INFO(fmt::format("mean squared error {:.4f}, then {:.2g}", before, error()));
     CHECK(error() < 0.01 * before);
+}
+
+TEST_CASE("an encoding's names stand in its file and the table's alone") {
+    const fs::path root = IRRADIA_SOURCE_DIR;
+    size_t files = 0;
+    for (const char* top : {"engine", "nrc"})
+        for (const auto& entry : fs::recursive_directory_iterator(root / top)) {
+            const fs::path extension = entry.path().extension();
+            if ((extension != ".h" && extension != ".cpp") ||
+                entry.path().parent_path() == root / "nrc/learning/encodings")
+                continue;
+            ++files;
+            std::ifstream text(entry.path());
+            for (std::string line; std::getline(text, line);) {
+                line = line.substr(0, line.find("//"));
+                bool isNamed = line.find("kernels::encode_") != std::string::npos;
+                for (const EncodingKind& kind : encodingKinds())
+                    isNamed = isNamed || line.find('"' + kind.otype + '"') != std::string::npos;
+                if (isNamed) FAIL_CHECK(entry.path().string() << ": " << line);
+            }
+        }
+    CHECK(files > 50);
 }
 
 TEST_CASE("the device has nothing to say against it") {

@@ -109,16 +109,10 @@ PathTracerOptions picture() {
 
 // An input that is not looked at, and one that is.
 EncodingConfig ignored(uint32_t dims) {
-    EncodingConfig config;
-    config.dims = dims;
-    config.scale = 0.0;
-    return config;
+    return makeEncoding("Identity", dims, {{"scale", 0.0}});
 }
 EncodingConfig blobs(uint32_t dims) {
-    EncodingConfig config;
-    config.type = EncodingType::OneBlob;
-    config.dims = dims;
-    return config;
+    return makeEncoding("OneBlob", dims);
 }
 
 // Means of what the cache says of the wall's two sides, over the truth.

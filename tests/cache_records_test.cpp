@@ -456,9 +456,9 @@ void learn(Device& device, NeuralCache& cache, const std::vector<TrainingPath>& 
     cache.begin(graph);
     graph.execute();
     const TrainingBuffers packed = packPaths(paths);
-    upload<glm::uvec4>(device, *cache.tap().trainingPaths.buffer, packed.paths);
-    upload<glm::uvec4>(device, *cache.tap().trainingVertices.buffer, packed.vertices);
-    upload<glm::uvec4>(device, *cache.tap().trainingQueries.buffer, packed.queries);
+    upload<glm::uvec4>(device, *cache.buffers().trainingPaths.buffer, packed.paths);
+    upload<glm::uvec4>(device, *cache.buffers().trainingVertices.buffer, packed.vertices);
+    upload<glm::uvec4>(device, *cache.buffers().trainingQueries.buffer, packed.queries);
     cache.learn(graph, static_cast<uint32_t>(paths.size()));
     graph.execute();
 }

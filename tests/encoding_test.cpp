@@ -26,32 +26,34 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 EncodingConfig empty(uint32_t dims) {
-    return {.type = EncodingType::Empty, .dims = dims};
+    return makeEncoding("Empty", dims);
 }
 EncodingConfig identity(uint32_t dims, double scale = 1.0, double offset = 0.0) {
-    return {.dims = dims, .scale = scale, .offset = offset};
+    return makeEncoding("Identity", dims, {{"scale", scale}, {"offset", offset}});
 }
-EncodingConfig frequency(uint32_t dims, uint32_t frequencies) {
-    return {.type = EncodingType::Frequency, .dims = dims, .frequencies = frequencies};
+EncodingConfig frequency(uint32_t dims, double frequencies) {
+    return makeEncoding("Frequency", dims, {{"n_frequencies", frequencies}});
 }
-EncodingConfig triangleWave(uint32_t dims, uint32_t frequencies) {
-    return {.type = EncodingType::TriangleWave, .dims = dims, .frequencies = frequencies};
+EncodingConfig triangleWave(uint32_t dims, double frequencies) {
+    return makeEncoding("TriangleWave", dims, {{"n_frequencies", frequencies}});
 }
-EncodingConfig oneBlob(uint32_t dims, uint32_t bins, bool gaussian) {
-    return {.type = EncodingType::OneBlob, .dims = dims, .bins = bins, .gaussian = gaussian};
+EncodingConfig oneBlob(uint32_t dims, double bins, bool gaussian) {
+    return makeEncoding("OneBlob", dims, {{"n_bins", bins}, {"kernel", gaussian}});
 }
-EncodingConfig harmonics(uint32_t degree) {
-    return {.type = EncodingType::SphericalHarmonics, .dims = 3, .degree = degree};
+EncodingConfig harmonics(double degree) {
+    return makeEncoding("SphericalHarmonics", 3, {{"degree", degree}});
 }
-EncodingConfig grid(EncodingType type, uint32_t dims, uint32_t levels, uint32_t features, bool mean = false) {
-    return {.type = type,
-            .dims = dims,
-            .levels = levels,
-            .featuresPerLevel = features,
-            .log2HashmapSize = 8,
-            .baseResolution = 4,
-            .perLevelScale = 1.6, // levels of 4, 7, 11, 17 and 27 cells an edge
-            .mean = mean};
+EncodingConfig grid(const std::string& otype, uint32_t dims, double levels, double features,
+                    bool mean = false) {
+    EncodingConfig config =
+        makeEncoding(otype, dims,
+                     {{"n_levels", levels},
+                      {"n_features_per_level", features},
+                      {"base_resolution", 4},
+                      {"per_level_scale", 1.6}, // levels of 4, 7, 11, 17 and 27 cells an edge
+                      {"aggregation", mean}});
+    if (otype == "HashGrid") config.keys["log2_hashmap_size"] = 8;
+    return config;
 }
 
 // Points of a wavy sheet, none of them near the border of a voxel of those levels, where single and double
@@ -74,34 +76,33 @@ std::vector<glm::vec3> sheet(size_t count) {
     return points;
 }
 
-EncodingCase gridCase(EncodingType type, uint32_t dims, uint32_t levels, uint32_t features, bool mean,
+EncodingCase gridCase(const std::string& otype, uint32_t dims, double levels, double features, bool mean,
                       Precision precision) {
-    EncodingCase made{{grid(type, dims, levels, features, mean)}, dims, precision, {}};
-    if (type == EncodingType::SparseGrid) made.touched = sheet(20);
+    EncodingCase made{{grid(otype, dims, levels, features, mean)}, dims, precision, {}};
+    if (otype == "SparseGrid") made.touched = sheet(20);
     return made;
 }
 
 // All grids, or some in which each choice occurs, at other subgroup sizes than the usual eight a few of
 // these: compiling is most of the time.
 std::vector<EncodingCase> gridCases() {
-    using enum EncodingType;
     using enum Precision;
     if (!fullSweep()) {
         std::vector<EncodingCase> some{
-            gridCase(DenseGrid, 2, 3, 2, false, Float), gridCase(DenseGrid, 3, 3, 1, true, Half),
-            gridCase(HashGrid, 3, 4, 2, false, Half),   gridCase(SparseGrid, 3, 3, 4, false, Float),
-            gridCase(SparseGrid, 2, 2, 16, true, Half), gridCase(HashGrid, 2, 5, 1, false, Float),
-            gridCase(HashGrid, 3, 4, 8, true, Float)};
+            gridCase("DenseGrid", 2, 3, 2, false, Float), gridCase("DenseGrid", 3, 3, 1, true, Half),
+            gridCase("HashGrid", 3, 4, 2, false, Half),   gridCase("SparseGrid", 3, 3, 4, false, Float),
+            gridCase("SparseGrid", 2, 2, 16, true, Half), gridCase("HashGrid", 2, 5, 1, false, Float),
+            gridCase("HashGrid", 3, 4, 8, true, Float)};
         if (validatedDevice().subgroupSize() != 8) some.resize(4);
         return some;
     }
     std::vector<EncodingCase> all;
-    for (const EncodingType type : {DenseGrid, SparseGrid, HashGrid})
+    for (const char* otype : {"DenseGrid", "SparseGrid", "HashGrid"})
         for (const uint32_t dims : {2u, 3u})
             for (const uint32_t features : {1u, 2u, 4u, 8u, 16u})
                 for (const bool mean : {false, true})
                     for (const Precision precision : kPrecisions)
-                        all.push_back(gridCase(type, dims, 5, features, mean, precision));
+                        all.push_back(gridCase(otype, dims, 5, features, mean, precision));
     return all;
 }
 
@@ -131,8 +132,8 @@ constexpr double kGradientTolerance = 3e-5;
 
 // One of each kernel, in a composite.
 EncodingCase everyKernel(Precision precision) {
-    return {{identity(1), frequency(1, 3), oneBlob(2, 5, false), harmonics(3),
-             grid(EncodingType::HashGrid, 3, 3, 2), grid(EncodingType::SparseGrid, 2, 2, 1, true)},
+    return {{identity(1), frequency(1, 3), oneBlob(2, 5, false), harmonics(3), grid("HashGrid", 3, 3, 2),
+             grid("SparseGrid", 2, 2, 1, true)},
             12,
             precision,
             sheet(20)};
@@ -240,8 +241,8 @@ TEST_CASE("any number of rows, of which no other row or old content changes a bi
 }
 
 TEST_CASE("gradients by features agree with central differences of the kernels' own values") {
-    for (const EncodingCase& made : {gridCase(EncodingType::HashGrid, 2, 5, 1, false, Precision::Float),
-                                     gridCase(EncodingType::SparseGrid, 3, 3, 4, false, Precision::Float)}) {
+    for (const EncodingCase& made : {gridCase("HashGrid", 2, 5, 1, false, Precision::Float),
+                                     gridCase("SparseGrid", 3, 3, 4, false, Precision::Float)}) {
         EncodingHarness harness(made);
         const EncodingBatch batch = harness.randomBatch(64, 8);
         auto features = harness.randomFeatures(9);
@@ -290,7 +291,7 @@ EncodingBatch reversed(const EncodingBatch& batch) {
 TEST_CASE(
     "gradients have the same bits in any order of rows, on any number of threads, by any form of access") {
     for (const Precision precision : kPrecisions) {
-        const EncodingCase made = gridCase(EncodingType::HashGrid, 3, 4, 2, false, precision);
+        const EncodingCase made = gridCase("HashGrid", 3, 4, 2, false, precision);
         EncodingHarness harness(made);
         const EncodingBatch batch = harness.randomBatch(511, 10);
         const auto features = harness.randomFeatures(11);
@@ -322,8 +323,8 @@ namespace {
 // Rows at a corner of a grid of two features, which so get their gradients whole. (Two cells an edge: the
 // middle of the square lies at 0.5 + 0.5.)
 EncodingConfig squareGrid() {
-    EncodingConfig config = grid(EncodingType::DenseGrid, 2, 1, 2);
-    config.baseResolution = 2;
+    EncodingConfig config = grid("DenseGrid", 2, 1, 2);
+    config.keys["base_resolution"] = 2;
     return config;
 }
 constexpr size_t kCornerFeature = 2 * (1 + 3);
@@ -390,7 +391,7 @@ TEST_CASE("half precision's largest gradients are cut, and its infinities left o
 }
 
 TEST_CASE("positions outside of the cube are those at its border, NaN is 0") {
-    EncodingHarness harness(gridCase(EncodingType::HashGrid, 3, 4, 2, false, Precision::Float));
+    EncodingHarness harness(gridCase("HashGrid", 3, 4, 2, false, Precision::Float));
     const auto features = harness.randomFeatures(14);
     const EncodingBatch outside{
         4, {-3.0, 0.5, 7e30, 0.25, kNaN, 2.0, kInfinity, -kInfinity, 0.5, 1, 1, 1}, {}};
@@ -416,8 +417,8 @@ TEST_CASE("a sparse grid knows nothing of voxels that no point touches, and all 
         }
         points.push_back(p);
     }
-    EncodingConfig config = grid(EncodingType::SparseGrid, 3, 3, 1);
-    config.baseResolution = 8;
+    EncodingConfig config = grid("SparseGrid", 3, 3, 1);
+    config.keys["base_resolution"] = 8;
     EncodingHarness harness({{config}, 3, Precision::Float, points});
     const std::vector<double> ones(harness.encoding().featureCount(), 1.0);
     EncodingBatch batch{512, {}, {}};
@@ -436,7 +437,7 @@ TEST_CASE("a sparse grid knows nothing of voxels that no point touches, and all 
 }
 
 TEST_CASE("initial features fill their range evenly and follow the seed") {
-    const EncodingHarness harness(gridCase(EncodingType::HashGrid, 3, 4, 2, false, Precision::Float));
+    const EncodingHarness harness(gridCase("HashGrid", 3, 4, 2, false, Precision::Float));
     const Encoding& encoding = harness.encoding();
     std::vector<float> features(encoding.featureCount()), again = features, other = features;
     encoding.initialise(features, 1);
@@ -463,37 +464,37 @@ TEST_CASE("parts that do not fit, and grids that are too large, are refused by t
         expectError(code, named,
                     [&] { Encoding(validatedDevice(), parts, inputs, Precision::Float, touched); });
     };
-    using enum EncodingType;
     using enum ExitCode;
     refused(BadData, "has no part", {}, 3);
     refused(BadData, "take 3 inputs, there are 4", {identity(3)}, 4);
     refused(BadData, "take 5 inputs, there are 4", {identity(3), identity(2)}, 4);
     refused(BadData, "take 4 and at least one more inputs, there are 4", {identity(4), identity(0)}, 4);
     refused(BadData, "parts 0 and 2 both", {identity(0), identity(1), identity(0)}, 4);
-    refused(BadData, "part 1: a grid takes 2 or 3 inputs, not 4", {identity(1), grid(HashGrid, 4, 1, 2)}, 5);
-    refused(BadData, "part 0: a grid takes 2 or 3 inputs, not 1", {grid(DenseGrid, 1, 1, 2)}, 1);
+    refused(BadData, "part 1: a grid takes 2 or 3 inputs, not 4", {identity(1), grid("HashGrid", 4, 1, 2)},
+            5);
+    refused(BadData, "part 0: a grid takes 2 or 3 inputs, not 1", {grid("DenseGrid", 1, 1, 2)}, 1);
     refused(BadData, "part 0: spherical harmonics take 3 inputs, not 2",
-            {{.type = SphericalHarmonics, .dims = 2}}, 2);
+            {makeEncoding("SphericalHarmonics", 2)}, 2);
     refused(BadData, "degree 1 to 4, not 5", {harmonics(5)}, 3);
     refused(BadData, "degree 1 to 4, not 0", {harmonics(0)}, 3);
     refused(BadData, "part 0: makes no values", {oneBlob(2, 0, false)}, 2);
-    refused(BadData, "1 to 16 levels, not 17", {grid(HashGrid, 3, 17, 2)}, 3);
-    refused(BadData, "features a level, not 3", {grid(HashGrid, 3, 2, 3)}, 3);
-    refused(BadData, "there are 0", {grid(SparseGrid, 3, 2, 2)}, 3);
-    refused(BadData, "point 1 of the SparseGrid's 2 is not finite", {grid(SparseGrid, 3, 2, 2)}, 3,
+    refused(BadData, "1 to 16 levels, not 17", {grid("HashGrid", 3, 17, 2)}, 3);
+    refused(BadData, "features a level, not 3", {grid("HashGrid", 3, 2, 3)}, 3);
+    refused(BadData, "there are 0", {grid("SparseGrid", 3, 2, 2)}, 3);
+    refused(BadData, "point 1 of the SparseGrid's 2 is not finite", {grid("SparseGrid", 3, 2, 2)}, 3,
             {glm::vec3(0.5f), {0.5f, std::numeric_limits<float>::quiet_NaN(), 0.5f}});
     refused(BadData, "level 8 of a SparseGrid has 172 cells an edge, at most 129",
-            {grid(SparseGrid, 3, 9, 2)}, 3, sheet(1));
+            {grid("SparseGrid", 3, 9, 2)}, 3, sheet(1));
     // 2^24 features have 128 MiB of sums, which is all that lavapipe binds.
     if (!validatedDevice().isCpu()) return;
-    EncodingConfig large = grid(HashGrid, 3, 16, 4);
-    large.log2HashmapSize = 22;
-    large.baseResolution = 1u << 10;
-    large.perLevelScale = 1.0;
+    EncodingConfig large = grid("HashGrid", 3, 16, 4);
+    large.keys["log2_hashmap_size"] = 22;
+    large.keys["base_resolution"] = 1u << 10;
+    large.keys["per_level_scale"] = 1.0;
     refused(OutOfMemory,
             "33554432 features, whose gradients are 256.0 MiB of sums; a binding holds 128.0 MiB", {large},
             3);
-    large.type = DenseGrid;
+    large.otype = "DenseGrid";
     refused(OutOfMemory, "level 0 of 1024 cells an edge", {large}, 3);
 }
 

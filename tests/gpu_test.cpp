@@ -140,6 +140,42 @@ TEST_CASE("passes that depend on each other run in order") {
     }
 }
 
+TEST_CASE("what waits for an execution is called after it, in order, and never without") {
+    Device& device = deviceWith(RecordAccess::Texel);
+    const Kernel sizes(device, kernels::gpu_sizes);
+    const Buffer buffer(device, "sizes", 16);
+    std::vector<int> called;
+    FrameGraph graph(device);
+    const uint64_t list = graph.list();
+    graph.pass(sizes).write(buffer).dispatch(1);
+    graph.whenExecuted([&] { called.push_back(1); });
+    graph.whenExecuted([&] { called.push_back(2); });
+    CHECK(called.empty());
+    graph.execute();
+    CHECK(called == std::vector{1, 2});
+    CHECK(graph.list() != list);
+    graph.execute();
+    CHECK(called.size() == 2);
+    graph.whenExecuted([&] { called.push_back(3); });
+    graph.execute(); // of no passes
+    CHECK(called.size() == 3);
+
+    const uint64_t failed = graph.list();
+    graph.whenExecuted([&] { called.push_back(4); });
+    graph.pass(sizes).write(buffer); // never dispatched
+    CHECK_THROWS_AS(graph.execute(), Error);
+    graph.execute();
+    CHECK(called.size() == 3);
+    CHECK(graph.list() != failed);
+    {
+        FrameGraph dropped(device);
+        CHECK(dropped.list() != graph.list());
+        dropped.whenExecuted([&] { called.push_back(5); });
+    }
+    CHECK(called.size() == 3);
+    CHECK(device.validationMessages() == 0);
+}
+
 TEST_CASE("an indirect dispatch runs the group counts that an earlier pass wrote") {
     Device& device = deviceWith(RecordAccess::Texel);
     const Kernel count(device, kernels::gpu_count, {.workgroupSize = 32});

@@ -63,15 +63,15 @@ std::string nested(size_t depth, const std::string& open, const std::string& clo
 TEST_CASE("every key is read") {
     const ModelConfig config = parse(kPaper);
     REQUIRE(config.encoding.size() == 3);
-    CHECK(config.encoding[0].type == EncodingType::TriangleWave);
+    CHECK(config.encoding[0].otype == "TriangleWave");
     CHECK(config.encoding[0].dims == 3);
-    CHECK(config.encoding[0].frequencies == 12);
-    CHECK(config.encoding[1].type == EncodingType::OneBlob);
-    CHECK(config.encoding[1].bins == 4);
-    CHECK(config.encoding[1].gaussian);
+    CHECK(config.encoding[0].number("n_frequencies") == 12);
+    CHECK(config.encoding[1].otype == "OneBlob");
+    CHECK(config.encoding[1].number("n_bins") == 4);
+    CHECK(config.encoding[1].number("kernel") == 1); // Gaussian
     CHECK(config.encoding[2].dims == 0);
-    CHECK(config.encoding[2].scale == 0.5);
-    CHECK(config.encoding[2].offset == -1);
+    CHECK(config.encoding[2].number("scale") == 0.5);
+    CHECK(config.encoding[2].number("offset") == -1);
     CHECK(config.network.width == 128);
     CHECK(config.network.hiddenLayers == 4);
     CHECK(config.network.outputActivation == OutputActivation::Exponential);
@@ -109,17 +109,17 @@ TEST_CASE("grids and harmonics are read") {
         "optimizer": {"otype": "Adam", "learning_rate": 0.5, "grid_learning_rate": 0.25}})"));
     REQUIRE(config.encoding.size() == 5);
     const EncodingConfig& hash = config.encoding[0];
-    CHECK(hash.type == EncodingType::HashGrid);
-    CHECK(hash.levels == 16);
-    CHECK(hash.featuresPerLevel == 4);
-    CHECK(hash.log2HashmapSize == 19);
-    CHECK(hash.baseResolution == 8);
-    CHECK(hash.perLevelScale == 1.5);
-    CHECK(hash.mean);
-    CHECK(config.encoding[1].type == EncodingType::DenseGrid);
-    CHECK(config.encoding[1].levels == 3);
-    CHECK(config.encoding[2].type == EncodingType::SparseGrid);
-    CHECK(config.encoding[3].degree == 3);
+    CHECK(hash.otype == "HashGrid");
+    CHECK(hash.number("n_levels") == 16);
+    CHECK(hash.number("n_features_per_level") == 4);
+    CHECK(hash.number("log2_hashmap_size") == 19);
+    CHECK(hash.number("base_resolution") == 8);
+    CHECK(hash.number("per_level_scale") == 1.5);
+    CHECK(hash.number("aggregation") == 1); // Mean
+    CHECK(config.encoding[1].otype == "DenseGrid");
+    CHECK(config.encoding[1].number("n_levels") == 3);
+    CHECK(config.encoding[2].otype == "SparseGrid");
+    CHECK(config.encoding[3].number("degree") == 3);
     CHECK(config.optimizer.learningRate == 0.5);
     CHECK(config.optimizer.gridLearningRate == 0.25);
 }
@@ -127,8 +127,8 @@ TEST_CASE("grids and harmonics are read") {
 TEST_CASE("what may be left out means nothing is done") {
     const ModelConfig config = parse(wholeModel(R"({"loss": {"otype": "RelativeL2"}})"));
     REQUIRE(config.encoding.size() == 1);
-    CHECK(config.encoding[0].scale == 1);
-    CHECK(config.encoding[0].offset == 0);
+    CHECK(config.encoding[0].number("scale") == 1);
+    CHECK(config.encoding[0].number("offset") == 0);
     CHECK(config.encoding[0].dims == 0);
     CHECK(config.network.outputActivation == OutputActivation::None);
     CHECK(config.network.precision == Precision::Float);

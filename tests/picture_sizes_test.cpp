@@ -167,7 +167,7 @@ TEST_CASE("pictures of a dozen sizes are right by path tracing and with a cache"
                 // A frame that asks the cache, right or not: the last wave's paths end in it.
                 renderer.setWarmingUp(true);
                 renderer.renderFrame(camera, 1);
-                const BufferRange counters = renderer.cache().tap().counters;
+                const BufferRange counters = renderer.cache().buffers().counters;
                 CHECK(download<uint32_t>(device(), *counters.buffer, 1, gpu::kQueryCounter * 4).front() > 0);
                 CHECK(std::isfinite(meanOf(renderer.tracer().readFilm())));
             }

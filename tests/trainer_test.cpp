@@ -1,5 +1,7 @@
 // Trainer: its steps against the double-precision twin, which records a pass uses, and which weights a
 // prediction.
+#include "engine/error.h"
+#include "kernels/shaders.h"
 #include "tests/reference/random.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/kernel_harness.h"
@@ -289,6 +291,50 @@ TEST_CASE("predictions use the weights asked for, as they are now, in parts wher
     CHECK(ema() == averages);
     CHECK(isThatOf(Weights::Raw));
     CHECK(isThatOf(Weights::Ema));
+}
+
+TEST_CASE("passes that are declared and never executed change nothing") {
+    const TrainingRecords records = randomRecords(256, 1);
+    TrainerHarness harness(smallModel(R"({"otype": "L2"})", kEverything)),
+        twin(smallModel(R"({"otype": "L2"})", kEverything));
+    harness.train(records);
+    twin.train(records);
+    const Buffer counters = makeBuffer<uint32_t>(validatedDevice(), "counters", {256});
+    const Buffer inputs(validatedDevice(), "inputs", 256 * 32),
+        targets(validatedDevice(), "targets", 256 * 16);
+    const Buffer results(validatedDevice(), "results", 256 * 16);
+    const Kernel kernel(validatedDevice(), kernels::gpu_sizes);
+    const RowCount rows{counters, 0, 256};
+    const auto declare = [&](FrameGraph& graph, Weights weights) {
+        harness.trainer().infer(graph, rows, inputs, results, weights);
+        harness.trainer().train(graph, {rows, inputs, targets});
+        harness.trainer().infer(graph, rows, inputs, results, weights);
+    };
+    for (const Weights weights : {Weights::Raw, Weights::Ema}) {
+        {
+            FrameGraph dropped(validatedDevice());
+            declare(dropped, weights);
+        }
+        CHECK((harness.predict(records, weights) == twin.predict(records, weights)));
+        FrameGraph failing(validatedDevice());
+        declare(failing, weights);
+        failing.pass(kernel); // never dispatched
+        CHECK_THROWS_AS(failing.execute(), Error);
+        CHECK((harness.predict(records, weights) == twin.predict(records, weights)));
+    }
+    CHECK(areSame(harness.learned(), twin.learned()));
+
+    // Of two graphs that are declared together, each relies on what it does itself.
+    FrameGraph first(validatedDevice()), second(validatedDevice());
+    declare(first, Weights::Raw);
+    harness.trainer().infer(second, rows, inputs, results, Weights::Raw);
+    second.execute();
+    CHECK((harness.predict(records, Weights::Raw) == twin.predict(records, Weights::Raw)));
+    first.execute();
+    TrainerHarness again(smallModel(R"({"otype": "L2"})", kEverything));
+    again.setLearned(harness.learned());
+    for (const Weights weights : {Weights::Raw, Weights::Ema})
+        CHECK((harness.predict(records, weights) == again.predict(records, weights)));
 }
 
 TEST_CASE("a function is learned, and each pass shuffles anew") {

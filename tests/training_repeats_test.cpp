@@ -83,6 +83,35 @@ TEST_CASE("a loaded model goes on as if it had never stopped") {
     CHECK(areSame(loaded.learned(), whole.learned()));
 }
 
+TEST_CASE("what its owner keeps beside a trainer comes back with it, or is missed by name") {
+    const TemporaryFolder folder;
+    TrainerHarness harness(smallModel());
+    harness.train(randomRecords(100, 1));
+    const std::vector<float> scale{0.25f, 3.0f};
+    ModelFile model("cache");
+    model.add<float>("cache state", scale);
+    harness.trainer().save(folder / "a.model", std::move(model));
+
+    TrainerHarness other(smallModel(), 2);
+    const ModelFile back = ModelFile::read(folder / "a.model", "cache");
+    CHECK(back.values<float>("cache state", 2) == scale);
+    other.trainer().load(back);
+    CHECK(areSame(other.learned(), harness.learned()));
+
+    // A trainer alone does not read what depends on more than it.
+    expectError(ExitCode::BadData, "a.model: is a model of kind 'cache', wanted is one of kind 'network'",
+                [&] { other.trainer().load(folder / "a.model"); });
+    // Nothing is changed where a block of the trainer's is missing.
+    other.train(randomRecords(100, 2));
+    const Learned before = other.learned();
+    ModelFile partial("cache");
+    partial.addText("shape", other.trainer().shapeName());
+    partial.add<gpu::TrainingState>("counters", std::vector<gpu::TrainingState>(1));
+    partial.add<float>("parameters", std::vector<float>(other.trainer().parameterCount()));
+    expectError(ExitCode::BadData, "holds no block 'first moments'", [&] { other.trainer().load(partial); });
+    CHECK(areSame(other.learned(), before));
+}
+
 TEST_CASE("a model of another shape, or none, is refused and changes nothing") {
     const TemporaryFolder folder;
     TrainerHarness harness(smallModel());

@@ -51,17 +51,11 @@ VkDevice createDevice(const PhysicalDevice& physical) {
     const OptionalFeatures& has = physical.features;
     VkPhysicalDeviceVulkan12Features v12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
     v12.bufferDeviceAddress = has.bufferDeviceAddress;
-    v12.shaderFloat16 = has.shaderFloat16;
-    v12.shaderBufferInt64Atomics = has.bufferInt64Atomics;
-    v12.vulkanMemoryModel = has.vulkanMemoryModel;
-    v12.vulkanMemoryModelDeviceScope = has.vulkanMemoryModel;
-    VkPhysicalDeviceVulkan11Features v11{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES};
-    v11.storageBuffer16BitAccess = has.storage16Bit;
+    v12.subgroupBroadcastDynamicId = has.subgroupBroadcastDynamicId;
     VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
     features.features.robustBufferAccess = VK_TRUE;
     features.features.shaderInt64 = has.shaderInt64;
-    features.pNext = &v11;
-    v11.pNext = &v12;
+    features.pNext = &v12;
 
     std::vector<const char*> extensions;
     if (physical.subgroupSizeControl) {
@@ -155,9 +149,6 @@ bool Device::abandoned() const {
 }
 VkInstance Device::instance() const {
     return state_->instance.handle();
-}
-VkPhysicalDevice Device::physical() const {
-    return state_->physical.handle;
 }
 VkDevice Device::handle() const {
     return state_->device;

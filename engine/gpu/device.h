@@ -38,10 +38,7 @@ std::vector<DeviceDescription> listDevices();
 struct OptionalFeatures {
     bool bufferDeviceAddress = false;
     bool shaderInt64 = false;
-    bool shaderFloat16 = false;
-    bool storage16Bit = false;
-    bool bufferInt64Atomics = false;
-    bool vulkanMemoryModel = false; // with device scope
+    bool subgroupBroadcastDynamicId = false; // from a lane that is no constant
 };
 
 class Device {
@@ -85,7 +82,6 @@ public:
     uint64_t validationMessages() const;
 
     VkInstance instance() const;
-    VkPhysicalDevice physical() const;
     VkDevice handle() const;
     VkQueue queue() const;
     uint32_t queueFamily() const;

@@ -96,10 +96,8 @@ void readFeatures(PhysicalDevice& device) {
     VkPhysicalDeviceSubgroupSizeControlFeatures control{
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_FEATURES};
     VkPhysicalDeviceVulkan12Features v12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
-    VkPhysicalDeviceVulkan11Features v11{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES};
     VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
-    features.pNext = &v11;
-    v11.pNext = &v12;
+    features.pNext = &v12;
     if (device.subgroupSizeControl) v12.pNext = &control;
     vkGetPhysicalDeviceFeatures2(device.handle, &features);
 
@@ -107,10 +105,7 @@ void readFeatures(PhysicalDevice& device) {
     device.subgroupSizeControl = control.subgroupSizeControl && control.computeFullSubgroups;
     device.features.bufferDeviceAddress = v12.bufferDeviceAddress;
     device.features.shaderInt64 = features.features.shaderInt64;
-    device.features.shaderFloat16 = v12.shaderFloat16;
-    device.features.storage16Bit = v11.storageBuffer16BitAccess;
-    device.features.bufferInt64Atomics = features.features.shaderInt64 && v12.shaderBufferInt64Atomics;
-    device.features.vulkanMemoryModel = v12.vulkanMemoryModel && v12.vulkanMemoryModelDeviceScope;
+    device.features.subgroupBroadcastDynamicId = v12.subgroupBroadcastDynamicId;
 }
 
 PhysicalDevice describe(VkPhysicalDevice handle, uint32_t index) {

@@ -145,6 +145,31 @@ void FrameGraph::State::keepTimes(size_t first) {
     }
 }
 
+void FrameGraph::State::submitAll() {
+    if (passes.back().command == PassRecord::Command::None)
+        fail(ExitCode::Internal, "pass {}: is declared but never dispatched", passes.back().name);
+
+    const std::vector<Barrier> barriers = schedule(accesses());
+    numberRuns();
+    const std::vector<size_t> starts = slices();
+    const bool waits = !device.runsInOrder();
+    sets.reset();
+    for (size_t slice = 0; slice < starts.size(); ++slice) {
+        const size_t first = starts[slice];
+        const size_t end = slice + 1 < starts.size() ? starts[slice + 1] : passes.size();
+        beginSubmission(static_cast<uint32_t>(end - first));
+        for (size_t i = first; i < end; ++i) {
+            if (waits && barriers[i].needed()) emitBarrier(commands, barriers[i]);
+            progress.passReached(commands);
+            record(passes[i]);
+            timestamps.passDone(commands);
+        }
+        if (end == passes.size() && barriers.back().needed()) emitBarrier(commands, barriers.back());
+        submit(first, end);
+        keepTimes(first);
+    }
+}
+
 void FrameGraph::execute() {
     State& s = *state_;
     // Whatever happens, the next frame starts with an empty graph.
@@ -152,32 +177,13 @@ void FrameGraph::execute() {
         State& state;
         ~Clear() {
             state.passes.clear();
+            state.whenExecuted.clear();
+            state.list = State::nextList();
             state.cutNext = false;
         }
     } clear{s};
-    if (s.passes.empty()) return;
-    if (s.passes.back().command == PassRecord::Command::None)
-        fail(ExitCode::Internal, "pass {}: is declared but never dispatched", s.passes.back().name);
-
-    const std::vector<Barrier> barriers = schedule(s.accesses());
-    s.numberRuns();
-    const std::vector<size_t> starts = s.slices();
-    const bool waits = !s.device.runsInOrder();
-    s.sets.reset();
-    for (size_t slice = 0; slice < starts.size(); ++slice) {
-        const size_t first = starts[slice];
-        const size_t end = slice + 1 < starts.size() ? starts[slice + 1] : s.passes.size();
-        s.beginSubmission(static_cast<uint32_t>(end - first));
-        for (size_t i = first; i < end; ++i) {
-            if (waits && barriers[i].needed()) emitBarrier(s.commands, barriers[i]);
-            s.progress.passReached(s.commands);
-            s.record(s.passes[i]);
-            s.timestamps.passDone(s.commands);
-        }
-        if (end == s.passes.size() && barriers.back().needed()) emitBarrier(s.commands, barriers.back());
-        s.submit(first, end);
-        s.keepTimes(first);
-    }
+    if (!s.passes.empty()) s.submitAll();
+    for (const auto& then : s.whenExecuted) then();
 }
 
 } // namespace irradia

@@ -2,6 +2,7 @@
 #include "engine/graph/frame_graph.h"
 #include "engine/error.h"
 #include "engine/graph/frame_graph_state.h"
+#include <atomic>
 #include <cstring>
 
 namespace irradia {
@@ -20,6 +21,11 @@ void checkTransfer(const char* verb, const BufferRange& range) {
 }
 
 } // namespace
+
+uint64_t FrameGraph::State::nextList() {
+    static std::atomic<uint64_t> last = 0;
+    return ++last;
+}
 
 PassRecord& FrameGraph::State::add(const std::string& name) {
     if (!passes.empty() && passes.back().command == PassRecord::Command::None)
@@ -102,6 +108,15 @@ void FrameGraph::cut() {
     else
         state_->cutNext = true;
 }
+
+void FrameGraph::whenExecuted(std::function<void()> then) {
+    state_->whenExecuted.push_back(std::move(then));
+}
+
+uint64_t FrameGraph::list() const {
+    return state_->list;
+}
+
 void FrameGraph::setTimeout(double seconds) {
     state_->timeoutSeconds = seconds;
 }

@@ -11,6 +11,7 @@
 #include "engine/gpu/kernel.h"
 #include "engine/gpu/profiler.h"
 #include "engine/graph/schedule.h"
+#include <functional>
 #include <memory>
 #include <span>
 
@@ -83,8 +84,17 @@ public:
     // others may keep busy while it compiles.
     void setTimeout(double seconds);
 
-    // Records, submits, waits; then the graph is empty again. Kernels and buffers must live until it returns.
+    // Records, submits, waits; then the graph is empty again, whether or not it throws. Kernels and buffers
+    // must live until it returns.
     void execute();
+
+    // For who keeps on the host what a buffer holds: `then` is called once all passes declared so far have
+    // been executed, by execute() or cut(), and never if they are not (the graph is dropped, or execute()
+    // throws).
+    void whenExecuted(std::function<void()> then);
+    // The number of the list of passes that is being declared: each execution begins another one, and no two
+    // lists of a process have the same.
+    uint64_t list() const;
 
 private:
     friend class Pass;

@@ -19,11 +19,13 @@ struct FrameGraph::State {
         , progress(d) {}
     ~State();
 
+    static uint64_t nextList();
     PassRecord& add(const std::string& name);
     void end(size_t index); // the pass is complete: checks it
     std::vector<ScheduledPass> accesses() const;
     void numberRuns();
     std::vector<size_t> slices() const;
+    void submitAll();
     void record(const PassRecord& pass);
     void beginSubmission(uint32_t passCount);
     void submit(size_t first, size_t end);
@@ -34,6 +36,8 @@ struct FrameGraph::State {
     double timeoutSeconds;
     std::vector<PassRecord> passes;
     bool cutNext = false;
+    uint64_t list = nextList(); // number of these passes
+    std::vector<std::function<void()>> whenExecuted;
     std::string section; // of the passes to come
     DescriptorSets sets;
     Timestamps timestamps;

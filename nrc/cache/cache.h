@@ -1,6 +1,6 @@
 // A cache of scattered radiance, whatever it learns with (a network, spherical harmonics, probes, nothing):
 // it answers the queries of a frame's paths, and learns from the frame's training paths. It knows no
-// renderer: who traces paths writes the buffers of its tap, laid out as shaders/shared/cache.h says.
+// renderer: who traces paths writes its buffers, laid out as shaders/shared/cache.h says.
 //
 // A frame: begin(); for each wave of paths beginQueries(), the renderer's tracing, answer(); then learn().
 // The frame's predictions come from what the frame before has left.
@@ -16,7 +16,7 @@
 namespace irradia {
 
 // What paths bind of a cache, whole; of training paths and vertices a wave binds its range.
-struct CacheTap {
+struct CacheBuffers {
     BufferRange queries;          // rows for every path of a wave
     BufferRange queryWeights;     // a quad each
     BufferRange counters;         // gpu::kCacheCounters words
@@ -45,7 +45,7 @@ class Cache {
 public:
     virtual ~Cache() = default;
 
-    virtual CacheTap tap() const = 0;
+    virtual CacheBuffers buffers() const = 0;
 
     virtual void begin(FrameGraph& graph) = 0;
     virtual void beginQueries(FrameGraph& graph) = 0;

@@ -75,7 +75,7 @@ Trainer& NeuralCache::trainer() {
     return state_->trainer;
 }
 
-CacheTap NeuralCache::tap() const {
+CacheBuffers NeuralCache::buffers() const {
     const State& s = *state_;
     return {s.queries.inputs(), s.queries.weights(),  s.queries.counters(),
             s.records.paths(),  s.records.vertices(), s.records.queries()};

@@ -27,7 +27,7 @@ public:
                                                       const NeuralCacheOptions& options,
                                                       const CacheRoom& room);
 
-    CacheTap tap() const override;
+    CacheBuffers buffers() const override;
     void begin(FrameGraph& graph) override;
     void beginQueries(FrameGraph& graph) override;
     void answer(FrameGraph& graph, BufferRange radiance) override;

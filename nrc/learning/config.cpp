@@ -2,8 +2,8 @@
 
 #include "engine/error.h"
 #include "nrc/learning/config_names.h"
+#include "nrc/learning/encodings/table.h"
 #include <algorithm>
-#include <cmath>
 
 namespace irradia {
 namespace {
@@ -13,51 +13,15 @@ using Json = nlohmann::json;
 constexpr size_t kMaxParts = 16; // of a composite
 // Second moments below 1e-38 vanish in single precision, so that steps would be divided by epsilon alone.
 constexpr double kSmallestAdamEpsilon = 1e-18;
-constexpr double kFinestResolution =
-    1 << 20; // a coordinate in single precision still tells 16 places in a cell
-
-void readGrid(JsonFields& fields, EncodingConfig& config) {
-    config.levels = fields.integer("n_levels", 1, 16);
-    config.featuresPerLevel = fields.integer("n_features_per_level", {1, 2, 4, 8, 16});
-    if (config.type == EncodingType::HashGrid)
-        config.log2HashmapSize = fields.integer("log2_hashmap_size", 4, 24);
-    config.baseResolution = fields.integer("base_resolution", 1, 1u << 16);
-    config.perLevelScale = fields.number("per_level_scale", {1, 16});
-    config.mean = fields.choice("aggregation", config.mean, kAggregationNames);
-    const double finest = config.baseResolution * std::pow(config.perLevelScale, config.levels - 1);
-    if (finest > kFinestResolution)
-        fail(ExitCode::BadData,
-             "{}: {}, n_levels and per_level_scale make a finest level of {:.4g} cells an edge, at most {} "
-             "are allowed",
-             fields.file(), fields.pathOf("base_resolution"), finest, kFinestResolution);
-}
 
 EncodingConfig readPart(const Json& json, const std::string& file, const std::string& path) {
     JsonFields fields(json, file, path);
     EncodingConfig config;
-    config.type = fields.choice("otype", kEncodingNames);
+    const EncodingKind& kind = encodingKinds()[fields.choice("otype", encodingNames())];
+    config.otype = kind.otype;
     config.dims = fields.integer("n_dims_to_encode", config.dims, 0, 64);
-    switch (config.type) {
-    case EncodingType::Empty:
-        break;
-    case EncodingType::Identity:
-        config.scale = fields.number("scale", config.scale, {-1e6, 1e6});
-        config.offset = fields.number("offset", config.offset, {-1e6, 1e6});
-        break;
-    case EncodingType::Frequency:
-    case EncodingType::TriangleWave:
-        config.frequencies = fields.integer("n_frequencies", 1, 16);
-        break;
-    case EncodingType::OneBlob:
-        config.bins = fields.integer("n_bins", 1, 64);
-        config.gaussian = fields.choice("kernel", config.gaussian, kKernelNames);
-        break;
-    case EncodingType::SphericalHarmonics:
-        config.degree = fields.integer("degree", 1, 4);
-        break;
-    default:
-        readGrid(fields, config);
-    }
+    for (const EncodingKey& key : kind.keys) config.keys[key.name] = key.read(fields);
+    if (kind.checkKeys) kind.checkKeys(fields, config);
     fields.finish();
     return config;
 }
@@ -162,6 +126,22 @@ OptimizerConfig readOptimizer(const Json& json, const std::string& file, std::st
 }
 
 } // namespace
+
+double EncodingConfig::number(const std::string& key) const {
+    const auto found = keys.find(key);
+    if (found == keys.end()) fail(ExitCode::Internal, "encoding: a {} has no {}", otype, key);
+    return found->second;
+}
+
+EncodingConfig makeEncoding(const std::string& otype, uint32_t dims, std::map<std::string, double> given) {
+    EncodingConfig config{otype, dims};
+    for (const EncodingKey& key : encodingKind(otype).keys) config.keys[key.name] = key.standard;
+    for (const auto& [key, value] : given) {
+        config.number(key);
+        config.keys[key] = value;
+    }
+    return config;
+}
 
 ModelConfig loadModelConfig(const std::filesystem::path& file) {
     return readModelConfig(loadJson(file), file.string(), "");

@@ -1,57 +1,41 @@
 // A model as JSON describes it, with tiny-cuda-nn's keys: encoding, network, loss, optimizer.
 //
-//     {"encoding": {"otype": "HashGrid", "n_levels": 8, ...}, "network": {"otype": "FullyFusedMLP",
-//     "n_neurons": 64, ...},
-//      "loss": {"otype": "RelativeL2Luminance", "epsilon": 0.01}, "optimizer": {"otype": "Ema", "decay":
-//      0.99, "nested": {"otype": "Adam", ...}}}
+//     {"encoding": {"otype": "HashGrid", "n_levels": 8, ...},
+//      "network": {"otype": "FullyFusedMLP", "n_neurons": 64, ...},
+//      "loss": {"otype": "RelativeL2Luminance", "epsilon": 0.01},
+//      "optimizer": {"otype": "Ema", "decay": 0.99, "nested": {"otype": "Adam", ...}}}
 //
-// A model says what it is: a key may be left out only where the struct's comment says what that means.
+// A model says what it is: a key may be left out only where the struct's comment, or the encoding's file in
+// nrc/learning/encodings, says what that means.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
 namespace irradia {
 
-enum class EncodingType {
-    Empty, // its inputs are left out: a model sees no more than a scene needs
-    Identity,
-    Frequency,
-    TriangleWave,
-    OneBlob,
-    SphericalHarmonics,
-    DenseGrid,
-    SparseGrid,
-    HashGrid
-};
-
-// One encoding of a composite, over consecutive inputs.
+// One encoding of a composite, over consecutive inputs. nrc/learning/encodings says which there are, and
+// which keys each takes beside these.
 struct EncodingConfig {
-    EncodingType type = EncodingType::Identity;
+    std::string otype;
     uint32_t dims = 0; // n_dims_to_encode; 0 or left out = all inputs that are left, in one part at most
+    std::map<std::string, double> keys{}; // all that it takes; a choice's value is the place of its name
 
-    double scale = 1.0;  // Identity: scale * x + offset; left out = 1
-    double offset = 0.0; // left out = 0
-
-    uint32_t frequencies = 12; // Frequency, TriangleWave: n_frequencies, 1 to 16
-
-    uint32_t bins = 4;     // OneBlob: n_bins, 1 to 64
-    bool gaussian = false; // OneBlob: "kernel": "Gaussian" (exact) or "Quartic" (where left out)
-
-    uint32_t degree = 4; // SphericalHarmonics: bands 0 .. degree - 1, 1 to 4, degree^2 values of a direction
-
-    uint32_t levels = 8;           // grids: n_levels, 1 to 16
-    uint32_t featuresPerLevel = 2; // grids: n_features_per_level: 1, 2, 4, 8 or 16
-    uint32_t log2HashmapSize = 15; // HashGrid: log2_hashmap_size, entries a level at most, 4 to 24
-    uint32_t baseResolution = 16;  // grids: base_resolution, cells an edge, 1 to 65536
-    double perLevelScale = 2.0;    // grids: per_level_scale, 1 to 16; the finest level has at most 2^20 cells
-    bool mean = false; // grids: "aggregation": "Mean" over levels, or "Concatenation" (where left out)
+    // Throw Error(Internal) where the encoding takes no such key.
+    double number(const std::string& key) const;
+    uint32_t whole(const std::string& key) const { return static_cast<uint32_t>(number(key)); }
 
     bool operator==(const EncodingConfig&) const = default;
 };
+
+// An encoding whose other keys have their usual values. Ranges are not checked. Throws Error(Internal) where
+// it is unknown or takes no such key.
+EncodingConfig makeEncoding(const std::string& otype, uint32_t dims = 0,
+                            std::map<std::string, double> keys = {});
 
 enum class Precision { Float, Half };
 enum class NetworkForm { Auto, Subgroup, Workgroup }; // Auto: by device class (CPU: subgroup, GPU: workgroup)
@@ -62,8 +46,8 @@ struct NetworkConfig {
     uint32_t hiddenLayers = 5; // n_hidden_layers, 1 to 8
     // What follows may be left out, as may the only "otype" and "activation" there are.
     OutputActivation outputActivation = OutputActivation::None;
-    Precision precision =
-        Precision::Float; // "precision": "Float" or "Half": weights and activations; sums are single
+    // "precision": "Float" or "Half", of weights and activations; sums are single.
+    Precision precision = Precision::Float;
     NetworkForm form = NetworkForm::Auto; // "form": "Auto", "Subgroup", "Workgroup"
 
     bool operator==(const NetworkConfig&) const = default;

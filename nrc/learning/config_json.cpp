@@ -1,5 +1,6 @@
 // A model's configuration as the text that parseModelConfig reads.
 #include "nrc/learning/config_names.h"
+#include "nrc/learning/encodings/table.h"
 #include <fmt/format.h>
 
 namespace irradia {
@@ -8,34 +9,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json partJson(const EncodingConfig& config) {
-    Json json{{"otype", nameOf(kEncodingNames, config.type)}, {"n_dims_to_encode", config.dims}};
-    switch (config.type) {
-    case EncodingType::Empty:
-        return json;
-    case EncodingType::Identity:
-        json["scale"] = config.scale;
-        json["offset"] = config.offset;
-        return json;
-    case EncodingType::Frequency:
-    case EncodingType::TriangleWave:
-        json["n_frequencies"] = config.frequencies;
-        return json;
-    case EncodingType::OneBlob:
-        json["n_bins"] = config.bins;
-        json["kernel"] = nameOf(kKernelNames, config.gaussian);
-        return json;
-    case EncodingType::SphericalHarmonics:
-        json["degree"] = config.degree;
-        return json;
-    default:
-        json["n_levels"] = config.levels;
-        json["n_features_per_level"] = config.featuresPerLevel;
-        if (config.type == EncodingType::HashGrid) json["log2_hashmap_size"] = config.log2HashmapSize;
-        json["base_resolution"] = config.baseResolution;
-        json["per_level_scale"] = config.perLevelScale;
-        json["aggregation"] = nameOf(kAggregationNames, config.mean);
-        return json;
-    }
+    Json json{{"otype", config.otype}, {"n_dims_to_encode", config.dims}};
+    for (const EncodingKey& key : encodingKind(config.otype).keys)
+        json[key.name] = key.write(config.number(key.name));
+    return json;
 }
 
 Json encodingJson(const std::vector<EncodingConfig>& parts) {

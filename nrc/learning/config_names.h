@@ -6,18 +6,6 @@
 
 namespace irradia {
 
-constexpr EnumName<EncodingType> kEncodingNames[] = {
-    {EncodingType::Empty, "Empty"},         {EncodingType::Identity, "Identity"},
-    {EncodingType::Frequency, "Frequency"}, {EncodingType::TriangleWave, "TriangleWave"},
-    {EncodingType::OneBlob, "OneBlob"},     {EncodingType::SphericalHarmonics, "SphericalHarmonics"},
-    {EncodingType::DenseGrid, "DenseGrid"}, {EncodingType::SparseGrid, "SparseGrid"},
-    {EncodingType::HashGrid, "HashGrid"},
-};
-
-// Of a OneBlob's "kernel" (gaussian or not) and a grid's "aggregation" (mean or not).
-constexpr EnumName<bool> kKernelNames[] = {{false, "Quartic"}, {true, "Gaussian"}};
-constexpr EnumName<bool> kAggregationNames[] = {{false, "Concatenation"}, {true, "Mean"}};
-
 constexpr EnumName<OutputActivation> kOutputActivationNames[] = {
     {OutputActivation::None, "None"},
     {OutputActivation::ReLU, "ReLU"},

@@ -1,6 +1,5 @@
-// Encodings of network inputs, composed over slices of the input: identity, frequency (Mildenhall 2020),
-// triangle wave and one-blob (Müller 2019, 2021), spherical harmonics, and grids of trainable features:
-// dense, sparse (only voxels that given points touch, as in NGLOD, Takikawa 2021), hashed (Müller 2022).
+// Encodings of network inputs, composed over slices of the input: nrc/learning/encodings has those there are,
+// some with features that are learned.
 //
 // Each part's values begin at a multiple of four; gaps, and the padding to a multiple of kFeaturePadding,
 // hold ones, which act as bias of the first layer.
@@ -8,20 +7,13 @@
 
 #include "engine/graph/frame_graph.h"
 #include "nrc/learning/config.h"
+#include "nrc/learning/row_count.h"
 #include <glm/glm.hpp>
 #include <memory>
 #include <optional>
 #include <span>
 
 namespace irradia {
-
-// A batch of rows on the device, or a part of it: how many the batch has is word `index` of `counters`.
-struct RowCount {
-    BufferRange counters;
-    uint32_t index = 0;
-    uint32_t capacity = 0; // a multiple of gpu::kRowPadding
-    uint32_t first = 0;    // likewise: the buffers hold rows [first, first + capacity) of the batch alone
-};
 
 class Encoding {
 public:

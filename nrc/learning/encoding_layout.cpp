@@ -1,6 +1,7 @@
 #include "nrc/learning/encoding_layout.h"
 
 #include "engine/error.h"
+#include "nrc/learning/encodings/table.h"
 #include <algorithm>
 
 namespace irradia {
@@ -13,38 +14,21 @@ uint32_t roundUp(uint32_t n, uint32_t multiple) {
     return (n + multiple - 1) / multiple * multiple;
 }
 
-// Of encodings that treat each input alike; 0 of others.
-uint32_t valuesPerInput(const EncodingConfig& config) {
-    switch (config.type) {
-    case EncodingType::Identity:
-        return 1;
-    case EncodingType::Frequency:
-        return 2 * config.frequencies;
-    case EncodingType::TriangleWave:
-        return config.frequencies;
-    case EncodingType::OneBlob:
-        return config.bins;
-    default:
-        return 0;
-    }
+uint32_t valuesOf(const EncodingSlice& slice) {
+    return slice.kind->values(slice.config);
 }
 
-uint32_t valuesOf(const EncodingConfig& config) {
-    if (config.type == EncodingType::SphericalHarmonics) return config.degree * config.degree;
-    if (isGrid(config.type)) return config.featuresPerLevel * (config.mean ? 1 : config.levels);
-    return config.dims * valuesPerInput(config);
+// Of encodings that treat inputs alike.
+uint32_t valuesPerInput(const EncodingSlice& slice) {
+    EncodingConfig ofOne = slice.config;
+    ofOne.dims = 1;
+    return slice.kind->values(ofOne);
 }
 
-void checkPart(const EncodingConfig& config, size_t part) {
-    if (isGrid(config.type) && config.dims != 2 && config.dims != 3)
-        fail(ExitCode::BadData, "encoding part {}: a grid takes 2 or 3 inputs, not {}", part, config.dims);
-    if (config.type == EncodingType::SphericalHarmonics && config.dims != 3)
-        fail(ExitCode::BadData, "encoding part {}: spherical harmonics take 3 inputs, not {}", part,
-             config.dims);
-    if (config.type == EncodingType::SphericalHarmonics && (config.degree < 1 || config.degree > 4))
-        fail(ExitCode::BadData, "encoding part {}: spherical harmonics have degree 1 to 4, not {}", part,
-             config.degree);
-    if (valuesOf(config) == 0) fail(ExitCode::BadData, "encoding part {}: makes no values", part);
+void checkPart(const EncodingSlice& slice, size_t part) {
+    const std::string misfit = slice.kind->misfit ? slice.kind->misfit(slice.config) : "";
+    if (!misfit.empty()) fail(ExitCode::BadData, "encoding part {}: {}", part, misfit);
+    if (valuesOf(slice) == 0) fail(ExitCode::BadData, "encoding part {}: makes no values", part);
 }
 
 // Parts with a number of inputs each, which sum to `inputs`: one may leave it open.
@@ -66,18 +50,18 @@ std::vector<EncodingConfig> resolved(std::vector<EncodingConfig> parts, uint32_t
     return parts;
 }
 
-bool areAlike(const EncodingConfig& a, const EncodingConfig& b) {
-    return a.type == b.type && valuesPerInput(a) != 0 && valuesPerInput(a) == valuesPerInput(b) &&
-           a.gaussian == b.gaussian && a.scale == b.scale && a.offset == b.offset;
+bool areAlike(const EncodingSlice& a, const EncodingSlice& b) {
+    return a.kind == b.kind && a.kind->treatsInputsAlike && a.config.keys == b.config.keys;
 }
 
 // A slice as several, each of which fills whole quads but for the last.
 void appendSplit(std::vector<EncodingSlice>& slices, EncodingSlice slice) {
-    const uint32_t perInput = valuesPerInput(slice.config);
-    const uint32_t most = perInput == 0 ? slice.config.dims : std::max(4u, kMostValues / perInput / 4 * 4);
+    const uint32_t most = slice.kind->treatsInputsAlike
+                              ? std::max(4u, kMostValues / valuesPerInput(slice) / 4 * 4)
+                              : slice.config.dims;
     for (uint32_t left = slice.config.dims; left > 0; left -= slice.config.dims) {
         slice.config.dims = std::min(left, most);
-        slice.values = valuesOf(slice.config);
+        slice.values = valuesOf(slice);
         slices.push_back(slice);
         slice.firstInput += slice.config.dims;
         slice.firstQuad += slice.quads();
@@ -86,11 +70,6 @@ void appendSplit(std::vector<EncodingSlice>& slices, EncodingSlice slice) {
 
 } // namespace
 
-bool isGrid(EncodingType type) {
-    return type == EncodingType::DenseGrid || type == EncodingType::SparseGrid ||
-           type == EncodingType::HashGrid;
-}
-
 EncodingLayout layOut(const std::vector<EncodingConfig>& parts, uint32_t inputs) {
     if (parts.empty()) fail(ExitCode::BadData, "encoding: has no part");
     EncodingLayout layout{inputs, 0, {}};
@@ -98,10 +77,12 @@ EncodingLayout layOut(const std::vector<EncodingConfig>& parts, uint32_t inputs)
     uint32_t input = 0;
     const std::vector<EncodingConfig> all = resolved(parts, inputs);
     for (size_t p = 0; p < all.size(); input += all[p++].dims) {
-        if (all[p].type == EncodingType::Empty) continue;
-        checkPart(all[p], p);
-        whole.push_back({all[p], input, valuesOf(all[p]), layout.encodedQuads});
-        layout.encodedQuads += whole.back().quads();
+        EncodingSlice slice{&encodingKind(all[p].otype), all[p], input, 0, layout.encodedQuads};
+        if (!slice.kind->values) continue;
+        checkPart(slice, p);
+        slice.values = valuesOf(slice);
+        layout.encodedQuads += slice.quads();
+        whole.push_back(std::move(slice));
     }
     if (whole.empty()) fail(ExitCode::BadData, "encoding: leaves all inputs out");
 
@@ -109,7 +90,7 @@ EncodingLayout layOut(const std::vector<EncodingConfig>& parts, uint32_t inputs)
     for (const EncodingSlice& slice : whole) {
         EncodingSlice* before = merged.empty() ? nullptr : &merged.back();
         const bool isNext = before && before->firstInput + before->config.dims == slice.firstInput;
-        if (isNext && areAlike(before->config, slice.config) && before->values % 4 == 0) {
+        if (isNext && areAlike(*before, slice) && before->values % 4 == 0) {
             before->config.dims += slice.config.dims;
             before->values += slice.values;
         } else {
@@ -122,6 +103,19 @@ EncodingLayout layOut(const std::vector<EncodingConfig>& parts, uint32_t inputs)
     layout.encodedQuads = roundUp(used, gpu::kFeaturePadding / 4);
     layout.slices.back().paddingQuads = layout.encodedQuads - used;
     return layout;
+}
+
+FeatureLayout layOutFeatures(const EncodingLayout& layout, const VkPhysicalDeviceLimits& limits,
+                             std::span<const glm::vec3> touched) {
+    FeatureLayout all;
+    for (const EncodingSlice& slice : layout.slices) {
+        std::unique_ptr<SliceFeatures>& features = all.slices.emplace_back();
+        if (!slice.kind->features) continue;
+        features = slice.kind->features(slice.config, {all.count, limits, touched});
+        all.count = (features->end() + kFeatureAlignment - 1) / kFeatureAlignment * kFeatureAlignment;
+        if (const auto sum = features->checksumBehind(all.checksum.value_or(0))) all.checksum = sum;
+    }
+    return all;
 }
 
 } // namespace irradia

@@ -105,7 +105,7 @@ uint32_t JsonFields::integer(const std::string& key, uint32_t fallback, uint32_t
     return ask(key) ? integer(key, low, high) : fallback;
 }
 
-uint32_t JsonFields::integer(const std::string& key, std::initializer_list<uint32_t> allowed) {
+uint32_t JsonFields::integer(const std::string& key, std::span<const uint32_t> allowed) {
     const uint64_t whole = wholeNumber(key);
     if (std::ranges::find(allowed, whole) == allowed.end())
         refuse(key, fmt::format("one of {}", fmt::join(allowed, ", ")));
@@ -172,7 +172,7 @@ uint64_t JsonFields::wholeNumber(const std::string& key) {
     return value && value->is_number_unsigned() ? value->get<uint64_t>() : UINT64_MAX;
 }
 
-size_t JsonFields::choose(const std::string& key, std::span<const char* const> names) {
+size_t JsonFields::choice(const std::string& key, std::span<const char* const> names) {
     const Json* value = ask(key);
     const auto* const text = value ? value->get_ptr<const std::string*>() : nullptr;
     const auto found = std::ranges::find_if(names, [&](const char* name) { return text && *text == name; });

@@ -52,11 +52,14 @@ public:
     // Each refuses a key that is missing, unless there is a `fallback` to return.
     double number(const std::string& key, const NumberRange& range);
     uint32_t integer(const std::string& key, uint32_t low, uint32_t high);
-    uint32_t integer(const std::string& key, std::initializer_list<uint32_t> allowed);
+    uint32_t integer(const std::string& key, std::span<const uint32_t> allowed);
+    uint32_t integer(const std::string& key, std::initializer_list<uint32_t> allowed) {
+        return integer(key, std::span(allowed.begin(), allowed.size()));
+    }
+    size_t choice(const std::string& key, std::span<const char* const> names); // the place of the one chosen
     template <typename Enum, size_t N>
     Enum choice(const std::string& key, const EnumName<Enum> (&names)[N]) {
-        ask(key);
-        return names[choose(key, textsOf(names))].value;
+        return names[choice(key, textsOf(names))].value;
     }
     const nlohmann::json& section(const std::string& key); // an object
 
@@ -67,7 +70,7 @@ public:
 
     template <typename Enum, size_t N>
     Enum choice(const std::string& key, Enum fallback, const EnumName<Enum> (&names)[N]) {
-        return ask(key) ? names[choose(key, textsOf(names))].value : fallback;
+        return ask(key) ? names[choice(key, textsOf(names))].value : fallback;
     }
 
     // Null where the key is missing.
@@ -88,7 +91,6 @@ private:
 
     const nlohmann::json* ask(const std::string& key);
     uint64_t wholeNumber(const std::string& key);
-    size_t choose(const std::string& key, std::span<const char* const> names);
 
     const nlohmann::json& object_;
     std::string file_;

@@ -2,6 +2,7 @@
 
 #include "engine/error.h"
 #include "kernels/learning.h"
+#include "shared/constants.h"
 
 namespace irradia {
 
@@ -13,7 +14,8 @@ Loss::Loss(Device& device, const LossConfig& config, uint32_t outputs, float los
     if (config.type == LossType::RelativeL2Luminance && outputs != 3)
         fail(ExitCode::BadData, "loss: RelativeL2Luminance needs the 3 outputs of a colour, not {}", outputs);
     KernelOptions options;
-    options.constants = {{2, static_cast<uint32_t>(config.type)}, {3, outputs}};
+    options.constants = {{gpu::kConstantLoss, static_cast<uint32_t>(config.type)},
+                         {gpu::kConstantLossOutputs, outputs}};
     loss_ = Kernel(device, kernels::loss, options);
     endBatch_ = Kernel(device, kernels::end_batch);
 }

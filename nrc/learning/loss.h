@@ -17,7 +17,7 @@ public:
 
     // Of rows [first, first + rows) of the batch; how many it has is in `state` (gpu::TrainingState), whose
     // counts it advances. `usable`: a word a row, 0 where the record is to be left out. resultGradient: rows
-    // as `results`, times lossScale and cut, before the mean; rowSums: a record a row, of its loss, the
+    // as `results`, times lossScale and cut, before the mean; rowSums: a quad a row, of its loss, the
     // luminance of prediction and target, and 1; zeros where it was not used.
     void evaluate(FrameGraph& graph, uint32_t rows, BufferRange state, BufferRange results,
                   BufferRange targets, BufferRange usable, BufferRange resultGradient, BufferRange rowSums,

@@ -6,8 +6,6 @@
 #include "nrc/learning/checksum.h"
 #include <algorithm>
 #include <bit>
-#include <cstring>
-#include <span>
 
 namespace irradia {
 namespace {
@@ -15,7 +13,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "models are stored as they are in memory");
 
 constexpr std::string_view kMagic = "IRRADNET";
-constexpr uint32_t kVersion = 1;
+constexpr uint32_t kVersion = 2;
 
 class Writer {
 public:
@@ -27,9 +25,9 @@ public:
     void value(const T& v) {
         raw(&v, sizeof v);
     }
-    void text(const std::string& s) {
-        value(uint64_t(s.size()));
-        raw(s.data(), s.size());
+    void block(const void* from, size_t bytes) {
+        value(uint64_t(bytes));
+        raw(from, bytes);
     }
     std::vector<uint8_t> finish() {
         value(checksum<uint8_t>(bytes_));
@@ -58,6 +56,7 @@ public:
         std::memcpy(&v, raw(sizeof v).data(), sizeof v);
         return v;
     }
+    std::span<const std::byte> block() { return std::as_bytes(raw(value<uint64_t>())); }
     std::string text() {
         const auto part = raw(value<uint64_t>());
         return {part.begin(), part.end()};
@@ -79,41 +78,72 @@ void checkHead(std::span<const uint8_t> bytes, const std::filesystem::path& file
 
 } // namespace
 
-void writeModel(const std::filesystem::path& file, const ModelFile& model) {
+void ModelFile::write(const std::filesystem::path& file) const {
     Writer writer;
     writer.raw(kMagic.data(), kMagic.size());
     writer.value(kVersion);
-    writer.text(model.shape);
-    writer.text(model.config);
-    writer.value(model.state);
-    writer.value(uint64_t(model.content.size()));
-    writer.raw(model.content.data(), model.content.size() * sizeof(float));
+    writer.block(kind_.data(), kind_.size());
+    writer.value(uint64_t(blocks_.size()));
+    for (const Block& block : blocks_) {
+        writer.block(block.name.data(), block.name.size());
+        writer.block(block.bytes.data(), block.bytes.size());
+    }
     writeFileAtomically(file, writer.finish());
 }
 
-ModelFile readModel(const std::filesystem::path& file, const std::string& shape, uint64_t contentCount) {
+ModelFile ModelFile::read(const std::filesystem::path& file, const std::string& kind) {
     const std::vector<uint8_t> bytes = readFile(file);
     checkHead(bytes, file);
     Reader reader(std::span<const uint8_t>(bytes).subspan(kMagic.size() + sizeof kVersion), file);
-    ModelFile model;
-    model.shape = reader.text();
-    model.config = reader.text();
-    model.state = reader.value<gpu::TrainingState>();
+    ModelFile model(reader.text());
+    model.file_ = file.string();
     const auto count = reader.value<uint64_t>();
-    if (count > bytes.size() / sizeof(float))
-        fail(ExitCode::BadData, "{}: the model is cut off", file.string());
-    const auto content = reader.raw(count * sizeof(float));
+    for (uint64_t i = 0; i < count; ++i) {
+        const std::string name = reader.text();
+        const auto content = reader.block();
+        if (model.has(name)) model.refuse(fmt::format("holds the block '{}' twice", name));
+        model.addBytes(name, content);
+    }
     if (reader.value<uint32_t>() !=
         checksum<uint8_t>(std::span(bytes).first(bytes.size() - sizeof(uint32_t))))
-        fail(ExitCode::BadData, "{}: the model is damaged (its checksum differs)", file.string());
-    if (model.shape != shape)
-        fail(ExitCode::BadData, "{}: holds a model of {}, wanted is one of {}", file.string(), model.shape,
-             shape);
-    if (count != contentCount)
-        fail(ExitCode::BadData, "{}: holds {} numbers, wanted are {}", file.string(), count, contentCount);
-    model.content.resize(count);
-    std::memcpy(model.content.data(), content.data(), content.size());
+        model.refuse("the model is damaged (its checksum differs)");
+    if (model.kind_ != kind)
+        model.refuse(fmt::format("is a model of kind '{}', wanted is one of kind '{}'", model.kind_, kind));
     return model;
+}
+
+void ModelFile::addBytes(const std::string& name, std::span<const std::byte> bytes) {
+    if (has(name)) fail(ExitCode::Internal, "model: has two blocks '{}'", name);
+    blocks_.push_back({name, {bytes.begin(), bytes.end()}});
+}
+
+bool ModelFile::has(std::string_view name) const {
+    return std::ranges::find(blocks_, name, &Block::name) != blocks_.end();
+}
+
+const ModelFile::Block& ModelFile::find(std::string_view name) const {
+    const auto found = std::ranges::find(blocks_, name, &Block::name);
+    if (found == blocks_.end()) refuse(fmt::format("holds no block '{}'", name));
+    return *found;
+}
+
+std::span<const std::byte> ModelFile::block(const std::string& name, uint64_t count, uint64_t ofValue) const {
+    const Block& found = find(name);
+    if (found.bytes.size() != count * ofValue)
+        refuse(fmt::format("block '{}' holds {} bytes, wanted are {}", name, found.bytes.size(),
+                           count * ofValue));
+    return found.bytes;
+}
+
+std::string ModelFile::text(const std::string& name) const {
+    const Block& found = find(name);
+    std::string text(found.bytes.size(), '\0');
+    std::memcpy(text.data(), found.bytes.data(), text.size());
+    return text;
+}
+
+void ModelFile::refuse(const std::string& what) const {
+    fail(ExitCode::BadData, "{}: {}", file_, what);
 }
 
 } // namespace irradia

@@ -24,7 +24,7 @@ NetworkConfig resolved(const Device& device, NetworkConfig config) {
     return config;
 }
 
-gpu::RowsParams rowsParams(const RowCount& rows, glm::uvec2 kept = {}) {
+gpu::RowsParams paramsOf(const RowCount& rows, glm::uvec2 kept = {}) {
     return {rows.index, rows.capacity, rows.first, 0, kept};
 }
 
@@ -50,6 +50,9 @@ Network::Network(Network&&) noexcept = default;
 const NetworkConfig& Network::config() const {
     return state_->config;
 }
+const NetworkShape& Network::shape() const {
+    return state_->shape;
+}
 uint32_t Network::inputs() const {
     return state_->shape.inputs;
 }
@@ -72,19 +75,6 @@ uint64_t Network::weightCount() const {
 uint32_t Network::weightQuads() const {
     return static_cast<uint32_t>(weightCount() / 4);
 }
-uint64_t Network::packedBytes() const {
-    return state_->shape.packedQuads() * state_->shape.quadBytes;
-}
-uint64_t Network::activationBytes(uint32_t capacity) const {
-    return state_->shape.activationBytes(capacity);
-}
-uint64_t Network::layerGradientBytes(uint32_t capacity) const {
-    return state_->shape.layerGradientBytes(capacity);
-}
-uint64_t Network::partialBytes(uint32_t batchCapacity) const {
-    return state_->shape.partialBytes(batchCapacity);
-}
-
 void Network::initialise(std::span<float> weights, uint64_t seed) const {
     const NetworkShape& shape = state_->shape;
     if (weights.size() != weightCount())
@@ -116,7 +106,7 @@ void Network::infer(FrameGraph& graph, const RowCount& rows, BufferRange encoded
         .read(encoded)
         .read(packed)
         .write(results)
-        .push(rowsParams(rows))
+        .push(paramsOf(rows))
         .dispatchGroups(state_->kernels.inferGroups(rows.capacity));
 }
 
@@ -128,7 +118,7 @@ void Network::forward(FrameGraph& graph, const RowCount& rows, BufferRange encod
         .read(packed)
         .write(results)
         .write(activations)
-        .push(rowsParams(rows, activations.address()))
+        .push(paramsOf(rows, activations.address()))
         .dispatchGroups(state_->kernels.forwardGroups(rows.capacity));
 }
 
@@ -144,7 +134,7 @@ void Network::backward(FrameGraph& graph, const RowCount& rows, BufferRange pack
         .read(resultGradient)
         .write(layerGradients)
         .write(inputGradient ? *inputGradient : BufferRange(state_->none))
-        .push(rowsParams(rows, layerGradients.address()))
+        .push(paramsOf(rows, layerGradients.address()))
         .dispatchGroups(state_->kernels.forwardGroups(rows.capacity));
 }
 

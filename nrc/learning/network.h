@@ -5,7 +5,8 @@
 
 #include "engine/graph/frame_graph.h"
 #include "nrc/learning/config.h"
-#include "nrc/learning/encoding.h"
+#include "nrc/learning/network_shape.h"
+#include "nrc/learning/row_count.h"
 #include <memory>
 #include <span>
 
@@ -22,6 +23,7 @@ public:
     Network(Network&&) noexcept;
 
     const NetworkConfig& config() const; // form resolved: never Auto
+    const NetworkShape& shape() const;   // with the sizes of the buffers below
     uint32_t inputs() const;
     uint32_t outputs() const;
     uint32_t outputQuads() const; // of a row of results: ceil(outputs / 4); the last quad's rest is undefined
@@ -35,8 +37,7 @@ public:
     void initialise(std::span<float> weights, uint64_t seed) const;
 
     // What kernels read: weights in `precision`, in the order in which lanes want them; forwards and
-    // transposed.
-    uint64_t packedBytes() const;
+    // transposed. packed: shape().packedBytes().
     void pack(FrameGraph& graph, BufferRange weights, BufferRange packed) const;
 
     // encoded: rows of inputs() / 4 quads of `precision`; results: rows of outputQuads() single-precision
@@ -44,27 +45,25 @@ public:
     void infer(FrameGraph& graph, const RowCount& rows, BufferRange encoded, BufferRange packed,
                BufferRange results) const;
 
-    // The same, keeping what the backward pass needs: rows of hiddenLayers * width / 4 quads of `precision`.
-    uint64_t activationBytes(uint32_t capacity) const;
+    // The same, keeping what the backward pass needs: rows of hiddenLayers * width / 4 quads of `precision`,
+    // shape().activationBytes().
     void forward(FrameGraph& graph, const RowCount& rows, BufferRange encoded, BufferRange packed,
                  BufferRange activations, BufferRange results) const;
 
     // From the gradient of the loss by the results (after the output's activation, so that `results` are read
-    // too) to that by each layer's activations; with `inputGradient`, also by the encoded inputs (rows of
-    // inputs() / 4 quads). resultGradient beyond outputs() must be zero in a row's last quad. Half precision:
-    // the subgroup form hands on to the next layer what it has in registers, the workgroup form what it has
-    // rounded. An exponential output that is cut at exp(30) still has its own value as derivative, so that
-    // training can bring it back.
-    uint64_t layerGradientBytes(uint32_t capacity) const;
+    // too) to that by each layer's sums before its activation, shape().layerGradientBytes(); with
+    // `inputGradient`, also by the encoded inputs (rows of inputs() / 4 quads). resultGradient beyond
+    // outputs() must be zero in a row's last quad. Half precision: the subgroup form hands on to the next
+    // layer what it has in registers, the workgroup form what it has rounded. An exponential output that is
+    // cut at exp(30) still has its own value as derivative, so that training can bring it back.
     void backward(FrameGraph& graph, const RowCount& rows, BufferRange packed, BufferRange activations,
                   BufferRange results, BufferRange resultGradient, BufferRange layerGradients,
                   const BufferRange* inputGradient) const;
 
     // Sums of layer gradient x activation over rows, in the chunks of a batch of `batchCapacity` rows
-    // (nrc/learning/batch_rows.h): `rows` may be a part of the batch that is whole chunks of it. Then, of all
-    // parts: gradients (weightCount() floats) = the chunks' sums in order, times the float at word
-    // `scaleWord` of `scale`. So the result depends neither on threads nor on the parts.
-    uint64_t partialBytes(uint32_t batchCapacity) const;
+    // (nrc/learning/batch_rows.h), shape().partialBytes(): `rows` may be a part of the batch that is whole
+    // chunks of it. Then, of all parts: gradients (weightCount() floats) = the chunks' sums in order, times
+    // the float at word `scaleWord` of `scale`. So the result depends neither on threads nor on the parts.
     void weightGradient(FrameGraph& graph, const RowCount& rows, uint32_t batchCapacity, BufferRange encoded,
                         BufferRange activations, BufferRange layerGradients, BufferRange partials) const;
     void sumGradients(FrameGraph& graph, uint32_t batchCapacity, BufferRange partials, BufferRange gradients,

@@ -2,6 +2,7 @@
 
 #include "engine/error.h"
 #include "kernels/learning.h"
+#include "shared/constants.h"
 #include <algorithm>
 
 namespace irradia {
@@ -22,11 +23,11 @@ NetworkShape checkedShape(const NetworkConfig& config, uint32_t inputs, uint32_t
 }
 
 std::vector<Specialisation> shapeConstants(const NetworkConfig& config, const NetworkShape& shape) {
-    return {{2, shape.inputQuads()},
-            {3, shape.widthQuads()},
-            {4, shape.hiddenLayers},
-            {5, shape.outputQuads()},
-            {6, static_cast<uint32_t>(config.outputActivation)}};
+    return {{gpu::kConstantInputQuads, shape.inputQuads()},
+            {gpu::kConstantWidthQuads, shape.widthQuads()},
+            {gpu::kConstantHiddenLayers, shape.hiddenLayers},
+            {gpu::kConstantOutputQuads, shape.outputQuads()},
+            {gpu::kConstantOutputActivation, static_cast<uint32_t>(config.outputActivation)}};
 }
 
 uint32_t weightBlocks(const NetworkShape& shape, uint32_t outputsTogether, uint32_t quadsTogether) {

@@ -25,6 +25,7 @@ struct NetworkShape {
     uint64_t packedQuads() const {
         return (weights() + hiddenWeights()) / 4 + uint64_t(width) * outputQuads();
     }
+    uint64_t packedBytes() const { return packedQuads() * quadBytes; }
     uint32_t activationQuads() const { return hiddenLayers * widthQuads(); }
     uint32_t gradientQuads() const { return activationQuads() + outputQuads(); }
     // Of so many rows of a batch, or of all of it.

@@ -1,6 +1,7 @@
 #include "engine/error.h"
 #include "kernels/learning.h"
 #include "nrc/learning/network_kernels.h"
+#include "shared/constants.h"
 #include <algorithm>
 
 namespace irradia {
@@ -21,25 +22,27 @@ uint32_t fastestRowsPerLane(const NetworkShape& shape) {
 NetworkKernels makeSubgroupKernels(Device& device, const NetworkConfig& config, const NetworkShape& shape,
                                    uint32_t rowsPerLane) {
     const bool half = config.precision == Precision::Half;
-    if (!device.features().bufferDeviceAddress || !device.features().shaderInt64)
+    const OptionalFeatures& has = device.features();
+    if (!has.bufferDeviceAddress || !has.shaderInt64 || !has.subgroupBroadcastDynamicId)
         fail(ExitCode::NoDevice,
-             "network: the subgroup form needs bufferDeviceAddress and shaderInt64, which {} has not both of",
+             "network: the subgroup form needs bufferDeviceAddress, shaderInt64 and "
+             "shaderSubgroupBroadcastDynamicId, of which {} has not all",
              device.description().name);
     const uint32_t rows = rowsPerLane > 0 ? rowsPerLane : fastestRowsPerLane(shape);
     KernelOptions options;
     options.constants = shapeConstants(config, shape);
     NetworkKernels kernels;
     const uint32_t gradientOutputs = std::min(kGradientOutputs, shape.width);
-    options.constants.push_back({7, gradientOutputs});
+    options.constants.push_back({gpu::kConstantOutputsTogether, gradientOutputs});
     kernels.weightGradient = Kernel(
         device, half ? kernels::weight_gradient_subgroup_half : kernels::weight_gradient_subgroup, options);
-    options.constants.back().value = rows;
+    options.constants.back() = {gpu::kConstantLaneRows, rows};
     kernels.infer = Kernel(device, half ? kernels::infer_subgroup_half : kernels::infer_subgroup, options);
     kernels.forward =
         Kernel(device, half ? kernels::forward_subgroup_half : kernels::forward_subgroup, options);
     const KernelSource& backward = half ? kernels::backward_subgroup_half : kernels::backward_subgroup;
     kernels.backward = Kernel(device, backward, options);
-    options.constants.push_back({9, 1});
+    options.constants.push_back({gpu::kConstantInputGradient, 1});
     kernels.backwardToInputs = Kernel(device, backward, options);
 
     kernels.inferRows = kernels.infer.workgroupSize() * rows;

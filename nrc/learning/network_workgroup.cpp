@@ -1,6 +1,7 @@
 #include "engine/error.h"
 #include "kernels/learning.h"
 #include "nrc/learning/network_kernels.h"
+#include "shared/constants.h"
 #include <algorithm>
 
 namespace irradia {
@@ -58,22 +59,22 @@ NetworkKernels makeWorkgroupKernels(Device& device, const NetworkConfig& config,
     const bool half = config.precision == Precision::Half;
     const Tile tile = chooseTile(device, shape);
     KernelOptions options = workgroupOptions(config, shape, tile.threads());
-    options.constants.push_back({7, tile.rows});
-    options.constants.push_back({8, tile.outputs});
+    options.constants.push_back({gpu::kConstantGroupRows, tile.rows});
+    options.constants.push_back({gpu::kConstantGroupOutputs, tile.outputs});
     NetworkKernels kernels;
     kernels.infer = Kernel(device, half ? kernels::infer_workgroup_half : kernels::infer_workgroup, options);
     kernels.forward =
         Kernel(device, half ? kernels::forward_workgroup_half : kernels::forward_workgroup, options);
     const KernelSource& backward = half ? kernels::backward_workgroup_half : kernels::backward_workgroup;
     kernels.backward = Kernel(device, backward, options);
-    options.constants.push_back({9, 1});
+    options.constants.push_back({gpu::kConstantInputGradient, 1});
     kernels.backwardToInputs = Kernel(device, backward, options);
     kernels.inferRows = kernels.forwardRows = tile.rows;
 
     const GradientBlock block{std::min(64u, shape.width), std::min(16u, shape.widthQuads())};
     options = workgroupOptions(config, shape, block.threads());
-    options.constants.push_back({7, block.outputs});
-    options.constants.push_back({8, block.quads});
+    options.constants.push_back({gpu::kConstantOutputsTogether, block.outputs});
+    options.constants.push_back({gpu::kConstantQuadsTogether, block.quads});
     kernels.weightGradient = Kernel(
         device, half ? kernels::weight_gradient_workgroup_half : kernels::weight_gradient_workgroup, options);
     kernels.weightBlocks = weightBlocks(shape, block.outputs, block.quads);

@@ -43,9 +43,9 @@ public:
     static gpu::TrainingState initialState();
 
     // One step from the groups' gradients; whether it happens, and the scale of sums, are in `state`
-    // (gpu::TrainingState). The average
-    // W_1 .. W_t of decays a_1 .. a_t weighs W_i with (1 - a_i) a_(i+1) .. a_t, over the sum of these
-    // weights. emaDecay: instead of the configuration's, in [0, 1); learningRate: times the groups'.
+    // (gpu::TrainingState). The average of W_1 .. W_t with decays a_1 .. a_t weighs W_i with
+    // (1 - a_i) a_(i+1) .. a_t, over the sum of these weights.
+    // emaDecay: instead of the configuration's, in [0, 1); learningRate: times the groups'.
     void step(FrameGraph& graph, BufferRange state, std::span<const ParameterGroup* const> groups,
               std::optional<double> emaDecay = {}, double learningRate = 1.0) const;
 

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "nrc/learning/encoding.h"
+#include "nrc/learning/model_file.h"
 #include "nrc/learning/network.h"
 #include "nrc/learning/trainer_options.h"
 #include <filesystem>
@@ -15,6 +16,9 @@
 #include <vector>
 
 namespace irradia {
+
+// What a saved trainer alone is; whoever saves more beside it has a kind of its own.
+constexpr const char* kNetworkModel = "network";
 
 // Which parameters a prediction uses.
 enum class Weights { Ema, Raw };
@@ -59,7 +63,7 @@ public:
             const TrainerOptions& options = {});
     ~Trainer();
 
-    // The buffers that the constructor allocates, but for some of a few records; throws what it does.
+    // The buffers that the constructor allocates, but for some of a few quads; throws what it does.
     static std::vector<Device::PlannedBuffer> planned(bool isCpu, const VkPhysicalDeviceLimits& limits,
                                                       const ModelConfig& config, uint32_t inputs,
                                                       uint32_t outputs, const TrainerOptions& options);
@@ -82,10 +86,13 @@ public:
 
     TrainingCounts counts() const; // of executed graphs
 
-    // Weights, moments, averages, counters; versioned, checked, written whole or not at all. load() throws
-    // Error(BadData) naming the file and what differs where it holds another shape, and then changes nothing.
-    void save(const std::filesystem::path& file) const;
+    // Shape, configuration, parameters, moments, averages and counters, beside what blocks `model` has
+    // already (nrc/learning/model_file.h): versioned, checked, written whole or not at all. load() throws
+    // Error(BadData) naming the file and what differs where it is of another kind or shape or lacks a block,
+    // and then changes nothing.
+    void save(const std::filesystem::path& file, ModelFile model = ModelFile(kNetworkModel)) const;
     void load(const std::filesystem::path& file);
+    void load(const ModelFile& model); // of whatever kind
 
     // Parameters as they are, for tests and tools: parameterCount() floats.
     std::vector<float> parameters(Weights weights) const;

@@ -2,7 +2,7 @@
 
 #include "engine/error.h"
 #include "nrc/learning/encoding_layout.h"
-#include "nrc/learning/feature_grid.h"
+#include "nrc/learning/encodings/slice.h"
 #include <algorithm>
 
 namespace irradia {
@@ -47,7 +47,7 @@ TrainerSizes::TrainerSizes(bool isCpu, const VkPhysicalDeviceLimits& limits, con
     const EncodingLayout layout = layOut(config.encoding, inputs);
     inputQuads = layout.inputQuads();
     encodedQuads = layout.encodedQuads;
-    features = layOutGrids(layout, limits, options.touched).features;
+    features = layOutFeatures(layout, limits, options.touched).count;
     shape = checkedShape(config.network, encodedQuads * 4, outputs);
     const uint64_t rowBytes = largestRow(shape, inputQuads, encodedQuads);
     const uint32_t bound = boundRows(limits, rowBytes, shape.quadBytes);
@@ -69,8 +69,8 @@ std::vector<Device::PlannedBuffer> TrainerSizes::planned() const {
         {"layer gradients", shape.layerGradientBytes(part)},
         {"gradient by encoded inputs", encodedGradientBytes()},
         {"partial weight gradients", shape.partialBytes(batch.rows)},
-        {"packed weights", packedBytes()},
-        {"packed weights of predictions", packedBytes()},
+        {"packed weights", shape.packedBytes()},
+        {"packed weights of predictions", shape.packedBytes()},
         {"encoded queries", encodedBytes(inferRows)},
     };
     // Values, moments and averages, and gradients: floats of weights, 64-bit sums of features.

@@ -15,7 +15,7 @@ struct TrainerSizes {
     TrainerSizes(bool isCpu, const VkPhysicalDeviceLimits& limits, const ModelConfig& config, uint32_t inputs,
                  uint32_t outputs, const TrainerOptions& options);
 
-    // Every buffer of a trainer that is larger than a few records.
+    // Every buffer of a trainer that is larger than a few quads.
     std::vector<Device::PlannedBuffer> planned() const;
 
     NetworkShape shape;
@@ -29,7 +29,6 @@ struct TrainerSizes {
     uint64_t inputBytes(uint64_t rows) const { return rows * inputQuads * 16; }
     uint64_t resultBytes(uint64_t rows) const { return rows * shape.outputQuads() * 16; }
     uint64_t encodedGradientBytes() const { return features > 0 ? encodedBytes(batch.partRows) : 16; }
-    uint64_t packedBytes() const { return shape.packedQuads() * shape.quadBytes; }
 };
 
 } // namespace irradia

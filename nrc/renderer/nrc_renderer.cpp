@@ -64,8 +64,8 @@ NrcRenderer::NrcRenderer(Device& device, const GpuScene& scene, const Bounds& bo
     : options_(options)
     , bounds_(bounds)
     , tracer_(device, scene, pathOptions(device.isCpu(), device.limits(), options), profiler)
-    , listener_(device)
     , cache_(cacheKind(options).make(device, cacheRoom(options, tracer_.largestWave())))
+    , tap_(device, cache_->buffers())
     , adaptation_(options.config.adaptation, options.config.steps, options.config.model.optimizer.emaDecay)
     , hasSurfaces_(scene.triangles > 0)
     , tiles_(tilePaths(options))
@@ -89,7 +89,7 @@ void NrcRenderer::renderFrame(const Camera& camera, uint32_t index) {
     cache_->begin(graph);
     if (!isShown()) ++framesWithoutCache_;
     for (Waves waves = tracer_.waves(); const auto wave = waves.next();) {
-        const PathTap tap = tapOf(*wave);
+        const PathTap tap = listen(*wave);
         cache_->beginQueries(graph);
         tracer_.traceWave(*wave, &tap);
         graph.section("query");
@@ -114,10 +114,9 @@ void NrcRenderer::learn() {
     FrameGraph& graph = tracer_.graph();
     gpu::CacheRule unseen = rule();
     unseen.lastDepth = options_.config.suffixBounces;
-    const CacheTap tap = cache_->tap();
     graph.section("train");
-    tiles_.traceUnseen(tracer_, listener_, tap, unseen, tiles_.tiles());
-    surfaces_.trace(tracer_, listener_, tap, unseen, tiles_.tiles() + tiles_.unseen());
+    tiles_.traceUnseen(tracer_, tap_, unseen, tiles_.tiles());
+    surfaces_.trace(tracer_, tap_, unseen, tiles_.tiles() + tiles_.unseen());
     cache_->learn(graph, trainingPaths(), adaptation_.effort());
     graph.section("");
 }
@@ -145,14 +144,14 @@ std::map<std::string, std::string> NrcRenderer::attributes() const {
     return attributes;
 }
 
-PathTap NrcRenderer::tapOf(const Wave& wave) {
+PathTap NrcRenderer::listen(const Wave& wave) {
     gpu::CacheRule rule = this->rule();
     if (!learns_ || wave.firstSample > 0) rule.tilesX = rule.tilesY = 0;
     if (!isShown()) {
         rule.boxHigh.w = std::numeric_limits<float>::infinity();
         rule.endDepth = gpu::kNoDepth;
     }
-    return listener_.listen(tracer_, cache_->tap(), rule, tiles_.touchedBy(wave));
+    return tap_.listen(tracer_, rule, tiles_.touchedBy(wave));
 }
 
 // A cache that knows nothing is not shown (of light that no path has found there is nothing to know), unless

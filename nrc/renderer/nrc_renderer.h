@@ -56,13 +56,13 @@ private:
     void learn();
     void chooseTrainingPaths();
     bool isShown() const;
-    PathTap tapOf(const Wave& wave);
+    PathTap listen(const Wave& wave);
 
     NrcOptions options_;
     Bounds bounds_;
     WavefrontPathTracer tracer_;
-    CacheListener listener_;
     std::unique_ptr<Cache> cache_;
+    CacheTap tap_;
     CacheCounts counts_;
     Adaptation adaptation_;
     bool hasSurfaces_;

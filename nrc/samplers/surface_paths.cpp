@@ -22,11 +22,10 @@ void SurfacePaths::choose(double paths) {
     count_ = std::min(static_cast<uint32_t>(std::max(paths, 0.0)), most_);
 }
 
-void SurfacePaths::trace(WavefrontPathTracer& tracer, const CacheListener& listener, const CacheTap& cache,
-                         const gpu::CacheRule& rule, uint32_t first) const {
-    for (Waves waves = tracer.surfaceWaves(count_, listener.mostUnseen()); const auto wave = waves.next();) {
-        const PathTap tap = listener.listenUnseen(tracer, cache, rule, first, wave->paths());
-        tracer.traceSurfaceWave(*wave, distance_, tap);
+void SurfacePaths::trace(WavefrontPathTracer& tracer, const CacheTap& tap, const gpu::CacheRule& rule,
+                         uint32_t first) const {
+    for (Waves waves = tracer.surfaceWaves(count_, tap.mostUnseen()); const auto wave = waves.next();) {
+        tracer.traceSurfaceWave(*wave, distance_, tap.listenUnseen(tracer, rule, first, *wave));
         first += wave->paths();
     }
 }

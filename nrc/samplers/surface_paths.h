@@ -2,7 +2,7 @@
 // forgotten.
 #pragma once
 
-#include "nrc/samplers/cache_listener.h"
+#include "nrc/samplers/cache_tap.h"
 
 namespace irradia {
 
@@ -17,8 +17,8 @@ public:
     float distance() const { return distance_; }
 
     // Traces them: training paths from number `first` on. All of such a path is suffix.
-    void trace(WavefrontPathTracer& tracer, const CacheListener& listener, const CacheTap& cache,
-               const gpu::CacheRule& rule, uint32_t first) const;
+    void trace(WavefrontPathTracer& tracer, const CacheTap& tap, const gpu::CacheRule& rule,
+               uint32_t first) const;
 
 private:
     float distance_;

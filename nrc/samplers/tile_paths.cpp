@@ -41,11 +41,11 @@ RowRange TilePaths::touchedBy(const Wave& wave) const {
     return {first * tilesX_, (last + 1 - first) * tilesX_};
 }
 
-void TilePaths::traceUnseen(WavefrontPathTracer& tracer, const CacheListener& listener, const CacheTap& cache,
-                            const gpu::CacheRule& rule, uint32_t first) const {
-    for (Waves waves = tracer.unseenCameraWaves(unseen_, listener.mostUnseen()); const auto wave = waves.next();) {
-        const PathTap tap = listener.listenUnseen(tracer, cache, rule, first, wave->paths());
-        tracer.traceWave(*wave, &tap);
+void TilePaths::traceUnseen(WavefrontPathTracer& tracer, const CacheTap& tap, const gpu::CacheRule& rule,
+                            uint32_t first) const {
+    for (Waves waves = tracer.unseenCameraWaves(unseen_, tap.mostUnseen()); const auto wave = waves.next();) {
+        const PathTap listening = tap.listenUnseen(tracer, rule, first, *wave);
+        tracer.traceWave(*wave, &listening);
         first += wave->paths();
     }
 }

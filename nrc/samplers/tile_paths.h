@@ -2,7 +2,7 @@
 // its query. Where training wants more of them than there are pixels, the others are not seen.
 #pragma once
 
-#include "nrc/samplers/cache_listener.h"
+#include "nrc/samplers/cache_tap.h"
 
 namespace irradia {
 
@@ -21,15 +21,14 @@ public:
 
     uint32_t tiles() const { return tilesX_ * tilesY_; } // training paths 0 to tiles() - 1
     uint32_t unseen() const { return unseen_; }
-    // Of a rule that is the picture's.
     void setTiles(gpu::CacheRule& rule) const;
     // The tiles that a wave's pixels touch, whole rows of them.
     RowRange touchedBy(const Wave& wave) const;
 
     // Traces the paths that are not seen: training paths from number `first` on. All of such a path is
     // suffix.
-    void traceUnseen(WavefrontPathTracer& tracer, const CacheListener& listener, const CacheTap& cache,
-                     const gpu::CacheRule& rule, uint32_t first) const;
+    void traceUnseen(WavefrontPathTracer& tracer, const CacheTap& tap, const gpu::CacheRule& rule,
+                     uint32_t first) const;
 
 private:
     uint32_t width_, height_, most_, mostTiles_;

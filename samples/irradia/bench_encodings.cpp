@@ -34,41 +34,30 @@ struct Composite {
     bool gaussian = false;
 };
 
-EncodingConfig waves(EncodingType type, uint32_t frequencies) {
-    EncodingConfig config;
-    config.type = type;
-    config.dims = 3;
-    config.frequencies = frequencies;
-    return config;
+EncodingConfig waves(const char* otype, double frequencies) {
+    return makeEncoding(otype, 3, {{"n_frequencies", frequencies}});
 }
 
-EncodingConfig hashGrid(uint32_t log2Size) {
-    EncodingConfig config;
-    config.type = EncodingType::HashGrid;
-    config.dims = 3;
-    config.log2HashmapSize = log2Size;
-    return config;
+EncodingConfig hashGrid(double log2Size) {
+    return makeEncoding("HashGrid", 3, {{"log2_hashmap_size", log2Size}});
 }
 
 // The first is what the others are compared with.
 std::vector<Composite> composites() {
-    const EncodingConfig triangle = waves(EncodingType::TriangleWave, 12);
-    const EncodingConfig sine = waves(EncodingType::Frequency, 6); // and cosine: as many values
+    const EncodingConfig triangle = waves("TriangleWave", 12);
+    const EncodingConfig sine = waves("Frequency", 6); // and cosine: as many values
     return {{"triangle wave, quartic", triangle},
             {"triangle wave, Gaussian", triangle, true},
             {"sine and cosine, quartic", sine},
             {"sine and cosine, Gaussian", sine, true},
-            {"12 octaves of these, quartic", waves(EncodingType::Frequency, 12)},
+            {"12 octaves of these, quartic", waves("Frequency", 12)},
             {"hash grid 8x2 2^15, quartic", hashGrid(15)},
             {"hash grid 8x2 2^19, quartic", hashGrid(19)}};
 }
 
 std::vector<EncodingConfig> partsOf(const Composite& composite) {
-    EncodingConfig blobs;
-    blobs.type = EncodingType::OneBlob;
-    blobs.dims = 5;
-    blobs.gaussian = composite.gaussian;
-    return {composite.position, blobs, EncodingConfig{}};
+    return {composite.position, makeEncoding("OneBlob", 5, {{"kernel", composite.gaussian}}),
+            makeEncoding("Identity")};
 }
 
 class EncodingRun {

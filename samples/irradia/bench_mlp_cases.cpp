@@ -54,7 +54,7 @@ NetworkConfig networkOf(const MlpCase& what) {
 // The inputs as they are, mean squared error, Adam: what the yardsticks do.
 ModelConfig modelOf(const MlpCase& what) {
     ModelConfig config;
-    config.encoding = {EncodingConfig{}};
+    config.encoding = {makeEncoding("Identity")};
     config.network = networkOf(what);
     const AdamConstants adam;
     config.optimizer.learningRate = adam.learningRate;
@@ -105,7 +105,7 @@ public:
         , network_(device, networkOf(what), what.shape.inputs, what.shape.outputs, what.rowsPerLane)
         , counters_(makeBuffer<uint32_t>(device, "counters", {problem.rows}))
         , encoded_(encodedRows(device, problem, what.precision))
-        , packed_(device, "packed weights", network_.packedBytes())
+        , packed_(device, "packed weights", network_.shape().packedBytes())
         , results_(device, "results",
                    uint64_t(paddedRows(rows_)) * network_.outputQuads() * sizeof(glm::vec4)) {
         const Buffer weights = makeBuffer(device, "weights", paddedWeights(problem, network_.weightCount()));

@@ -11,7 +11,7 @@ COUNTERS(5, sums);
 
 #include "learning/grid.glsl"
 
-layout(constant_id = 12) const uint kFeatureCount = 0u; // where the high words begin
+layout(constant_id = kConstantOwn + 4u) const uint kFeatureCount = 0u; // where the high words begin
 
 bool isFinite(float v) { return (floatBitsToUint(v) & 0x7f800000u) != 0x7f800000u; }
 

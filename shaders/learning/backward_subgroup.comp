@@ -9,7 +9,7 @@
 #include "learning/mlp_shape.glsl"
 #include "learning/activation.glsl"
 
-layout(constant_id = 9) const bool kInputGradient = false;
+layout(constant_id = kConstantInputGradient) const bool kInputGradient = false;
 
 COUNTERS_READ(0, counters);
 QUADS_READ(1, packed);

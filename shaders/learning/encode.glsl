@@ -1,15 +1,17 @@
 // Head of the encodings: kDims consecutive inputs of a row become values from quad kFirstQuad on; what is left of the
-// last quad, and kPaddingQuads quads behind it, are ones. Constants set by nrc/learning/encoding_kernels.cpp.
+// last quad, and kPaddingQuads quads behind it, are ones. nrc/learning/encodings/slice.cpp sets the
+// constants; those of the encoding itself follow from kConstantOwn on.
 #include "lib/kernel.glsl"
 #include "learning/quads.glsl"
+#include "shared/constants.h"
 #include "shared/network.h"
 
-layout(constant_id = 2) const uint kInputQuads = 1u; // of a row
-layout(constant_id = 3) const uint kFirstInput = 0u;
-layout(constant_id = 4) const uint kDims = 3u;
-layout(constant_id = 5) const uint kEncodedQuads = 4u; // of a row of the whole composite
-layout(constant_id = 6) const uint kFirstQuad = 0u;
-layout(constant_id = 7) const uint kPaddingQuads = 0u;
+layout(constant_id = kConstantSliceInputQuads) const uint kInputQuads = 1u; // of a row
+layout(constant_id = kConstantSliceFirstInput) const uint kFirstInput = 0u;
+layout(constant_id = kConstantSliceDims) const uint kDims = 3u;
+layout(constant_id = kConstantSliceEncodedQuads) const uint kEncodedQuads = 4u; // of a row of the whole composite
+layout(constant_id = kConstantSliceFirstQuad) const uint kFirstQuad = 0u;
+layout(constant_id = kConstantSlicePaddingQuads) const uint kPaddingQuads = 0u;
 
 COUNTERS_READ(0, counters);
 RECORDS_READ(1, inputs);

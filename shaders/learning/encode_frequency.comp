@@ -6,8 +6,8 @@
 #include "learning/encode.glsl"
 #include "lib/encoding.glsl"
 
-layout(constant_id = 8) const uint kFrequencies = 12u;
-layout(constant_id = 9) const bool kTriangle = true;
+layout(constant_id = kConstantOwn) const uint kFrequencies = 12u;
+layout(constant_id = kConstantOwn + 1u) const bool kTriangle = true;
 
 QUADS_WRITE(2, encoded);
 

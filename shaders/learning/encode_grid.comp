@@ -14,13 +14,13 @@ QUADS_WRITE(5, encoded);
 const uint kLevelsTogether = kFeatures < 4u ? 4u / kFeatures : 1u; // in a quad
 const uint kValueQuads = ((kMean ? 1u : kLevels) * kFeatures + 3u) / 4u;
 
-// The features of an entry within the record they stand in.
-vec4 alignedFeatures(vec4 record, uint entry) {
+// The features of an entry within the quad they stand in.
+vec4 alignedFeatures(vec4 quad, uint entry) {
     if (kFeatures == 1u) {
-        vec2 pair = (entry & 2u) != 0u ? record.zw : record.xy;
+        vec2 pair = (entry & 2u) != 0u ? quad.zw : quad.xy;
         return vec4((entry & 1u) != 0u ? pair.y : pair.x);
     }
-    return kFeatures == 2u && (entry & 1u) != 0u ? record.zwxy : record;
+    return kFeatures == 2u && (entry & 1u) != 0u ? quad.zwxy : quad;
 }
 
 // Loads stand before the arithmetic: an image load is a call on a CPU, which spills registers.
@@ -35,11 +35,11 @@ void levelFeatures(vec3 position, uint l, out vec4 sum[kLevelQuads]) {
         if (kGridKind == kGridSparse && entry[c] == kAbsentEntry) entry[c] = 0u, weight[c] = 0.0;
     }
     [[unroll]] for (uint q = 0u; q < kLevelQuads; ++q) {
-        vec4 record[kCorners];
+        vec4 quad[kCorners];
         [[unroll]] for (uint c = 0u; c < kCorners; ++c)
-            record[c] = uintBitsToFloat(loadRecord(features, entry[c] * kFeatures / 4u + q));
+            quad[c] = uintBitsToFloat(loadRecord(features, entry[c] * kFeatures / 4u + q));
         sum[q] = vec4(0.0);
-        [[unroll]] for (uint c = 0u; c < kCorners; ++c) sum[q] += weight[c] * alignedFeatures(record[c], entry[c]);
+        [[unroll]] for (uint c = 0u; c < kCorners; ++c) sum[q] += weight[c] * alignedFeatures(quad[c], entry[c]);
     }
 }
 

@@ -4,8 +4,8 @@
 // scale x + offset.
 #include "learning/encode.glsl"
 
-layout(constant_id = 8) const float kScale = 1.0;
-layout(constant_id = 9) const float kOffset = 0.0;
+layout(constant_id = kConstantOwn) const float kScale = 1.0;
+layout(constant_id = kConstantOwn + 1u) const float kOffset = 0.0;
 
 QUADS_WRITE(2, encoded);
 

@@ -6,8 +6,8 @@
 #include "learning/encode.glsl"
 #include "lib/encoding.glsl"
 
-layout(constant_id = 8) const uint kBins = 4u;
-layout(constant_id = 9) const bool kGaussian = false;
+layout(constant_id = kConstantOwn) const uint kBins = 4u;
+layout(constant_id = kConstantOwn + 1u) const bool kGaussian = false;
 
 QUADS_WRITE(2, encoded);
 

@@ -5,7 +5,7 @@
 #include "learning/encode.glsl"
 #include "lib/encoding.glsl"
 
-layout(constant_id = 8) const uint kDegree = 4u;
+layout(constant_id = kConstantOwn) const uint kDegree = 4u;
 
 QUADS_WRITE(2, encoded);
 

@@ -1,11 +1,11 @@
 // Levels of a feature grid and the corners about a point (Müller et al. 2022, section 3). Constants and the table of levels
-// are set by nrc/grid_encoding.cpp; included after learning/encode.glsl.
+// are set by nrc/learning/encodings/grid.cpp; included after learning/encode.glsl.
 #include "lib/encoding.glsl"
 
-layout(constant_id = 8) const uint kGridKind = kGridDense;
-layout(constant_id = 9) const uint kLevels = 8u;
-layout(constant_id = 10) const uint kFeatures = 2u; // of a level: 1, 2, 4, 8 or 16
-layout(constant_id = 11) const bool kMean = false;  // over levels; else their values one after the other
+layout(constant_id = kConstantOwn) const uint kGridKind = kGridDense;
+layout(constant_id = kConstantOwn + 1u) const uint kLevels = 8u;
+layout(constant_id = kConstantOwn + 2u) const uint kFeatures = 2u; // of a level: 1, 2, 4, 8 or 16
+layout(constant_id = kConstantOwn + 3u) const bool kMean = false;  // over levels; else their values one after the other
 
 layout(set = 0, binding = 2, std140) uniform Levels { GridLevel levels[kMaxGridLevels]; };
 

@@ -1,15 +1,16 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Loss and brightness of every row of a part of the batch, and the gradient of the loss by the results, before the mean over the batch is taken:
-// (p - t)^2 / d^e with the denominator d = p^2 + epsilon detached (Lehtinen 2018), or with p's luminance for all channels
-// (Müller 2021, 4.3).
+// Loss and brightness of every row of a part of the batch, and the gradient of the loss by the results, before the mean over
+// the batch is taken: (p - t)^2 / d^e with the denominator d = p^2 + epsilon detached (Lehtinen 2018), or with p's luminance
+// for all channels (Müller 2021, 4.3).
 #include "lib/kernel.glsl"
 #include "lib/math.glsl"
 #include "learning/state.glsl"
+#include "shared/constants.h"
 #include "shared/network.h"
 
-layout(constant_id = 2) const uint kLoss = kLossL2;
-layout(constant_id = 3) const uint kOutputs = 3u;
+layout(constant_id = kConstantLoss) const uint kLoss = kLossL2;
+layout(constant_id = kConstantLossOutputs) const uint kOutputs = 3u;
 const uint kQuads = (kOutputs + 3u) / 4u;
 
 STATE(0);

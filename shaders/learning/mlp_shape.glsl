@@ -1,14 +1,15 @@
-// Shape of a network and of its packed weights, as specialisation constants set by nrc/learning/network.cpp.
+// Shape of a network and of its packed weights, as specialisation constants set by nrc/learning/network_kernels.cpp.
 //
 // Packed weights are matrices stored like rows (shared/network.h): one row an output, its quads the inputs. First come
 // W_0, the hidden matrices and the output matrix, padded to kFeaturePadding rows; then their transposes in that order.
+#include "shared/constants.h"
 #include "shared/network.h"
 
-layout(constant_id = 2) const uint kInputQuads = 16u;
-layout(constant_id = 3) const uint kWidthQuads = 16u;
-layout(constant_id = 4) const uint kHiddenLayers = 5u;
-layout(constant_id = 5) const uint kOutputQuads = 1u;
-layout(constant_id = 6) const uint kOutputActivation = kOutputNone;
+layout(constant_id = kConstantInputQuads) const uint kInputQuads = 16u;
+layout(constant_id = kConstantWidthQuads) const uint kWidthQuads = 16u;
+layout(constant_id = kConstantHiddenLayers) const uint kHiddenLayers = 5u;
+layout(constant_id = kConstantOutputQuads) const uint kOutputQuads = 1u;
+layout(constant_id = kConstantOutputActivation) const uint kOutputActivation = kOutputNone;
 
 // Where matrices begin, in quads.
 const uint kInputMatrix = 0u;

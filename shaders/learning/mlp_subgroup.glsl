@@ -2,7 +2,7 @@
 // itself; a subgroup goes through the same weights together, four outputs at a time. The lanes that share an output load
 // parts of its weights in turn, and broadcasts spread them. Four outputs of four rows are sums enough to fill a CPU's
 // vector registers, and their unrolled code stays in its instruction cache, which that of eight outputs does not.
-layout(constant_id = 7) const uint kRows = 4u; // per lane; changes no result
+layout(constant_id = kConstantLaneRows) const uint kRows = 4u; // per lane; changes no result
 
 const uint kBlock = 4u; // outputs computed together: a quad of each row
 const uint kLanesPerOutput = kSubgroupSize / kBlock;

@@ -1,8 +1,8 @@
 // The fused perceptron for devices with fast shared memory (GPUs). A workgroup owns a tile of kGroupRows rows: their
 // activations stay in shared memory through all layers, and a layer's weights pass through it in blocks of kBlockOutputs
 // outputs (one block where the layer fits). A thread computes 4 rows by some quads of outputs.
-layout(constant_id = 7) const uint kGroupRows = 64u;
-layout(constant_id = 8) const uint kBlockOutputs = 64u;
+layout(constant_id = kConstantGroupRows) const uint kGroupRows = 64u;
+layout(constant_id = kConstantGroupOutputs) const uint kBlockOutputs = 64u;
 
 const uint kThreadRows = 4u;
 const uint kRowThreads = kGroupRows / kThreadRows;

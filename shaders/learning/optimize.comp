@@ -13,7 +13,7 @@
 #include "lib/kernel.glsl"
 #include "learning/state.glsl"
 
-// OWN(binding, name): records of which an invocation reads and writes those of its quad alone.
+// OWN(binding, name): quads of which an invocation reads and writes those of its quad alone.
 #ifdef BY_ADDRESS
 #include "lib/store_by_address.glsl"
 #define OWN(slot, name) RECORDS(slot, name)
@@ -22,7 +22,7 @@
 #else
 #define OWN(slot, name) layout(set = 0, binding = slot, std430) buffer name##Records { uvec4 name[]; }
 #define loadOwn(name, index) name[index]
-#define storeOwn(name, index, record) name[index] = record
+#define storeOwn(name, index, quad) name[index] = quad
 #endif
 
 STATE(0);

@@ -15,7 +15,7 @@ QUADS_READ(3, layerGradients);
 RECORDS_WRITE(4, partials); // a chunk after the other, each laid out as the weights
 layout(push_constant) uniform Push { WeightGradientParams params; };
 
-layout(constant_id = 7) const uint kOutputsTogether = 16u;
+layout(constant_id = kConstantOutputsTogether) const uint kOutputsTogether = 16u;
 const uint kOutputQuadsTogether = kOutputsTogether / 4u;
 const uint kQuadsTogether = kSubgroupSize;
 const uint kRowsTogether = kSubgroupSize < kTileRows ? kSubgroupSize : kTileRows;

@@ -14,8 +14,8 @@ QUADS_READ(3, layerGradients);
 RECORDS_WRITE(4, partials); // a chunk after the other, each laid out as the weights
 layout(push_constant) uniform Push { WeightGradientParams params; };
 
-layout(constant_id = 7) const uint kOutputsTogether = 64u;
-layout(constant_id = 8) const uint kQuadsTogether = 16u;
+layout(constant_id = kConstantOutputsTogether) const uint kOutputsTogether = 64u;
+layout(constant_id = kConstantQuadsTogether) const uint kQuadsTogether = 16u;
 const uint kThreadOutputs = 8u;
 const uint kOutputQuadsTogether = kOutputsTogether / 4u;
 const uint kThreads = kQuadsTogether * (kOutputsTogether / kThreadOutputs);

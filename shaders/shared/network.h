@@ -20,7 +20,7 @@ SHARED_FUNCTION uint quadIndex(uint row, uint quad, uint quads) {
     return (row / kTileRows * quads + quad) * kTileRows + row % kTileRows;
 }
 
-// Activation of the output layer (network.comp constant).
+// Activation of the output layer (kConstantOutputActivation).
 SHARED_CONST uint kOutputNone = 0u;
 SHARED_CONST uint kOutputReLU = 1u;
 SHARED_CONST uint kOutputExponential = 2u; // exp(min(z, 30))

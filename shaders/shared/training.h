@@ -58,7 +58,7 @@ struct GatherParams {
     uvec2 batchTargets;
 };
 
-// loss: kinds as constant 2 of loss.comp
+// loss: kinds, kConstantLoss
 SHARED_CONST uint kLossL2 = 0u;
 SHARED_CONST uint kLossRelativeL2 = 1u;
 SHARED_CONST uint kLossRelativeL2Luminance = 2u;

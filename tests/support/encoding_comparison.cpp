@@ -12,22 +12,17 @@ constexpr double kUlp = 0x1p-23; // of 1 in single precision
 // How far single precision may be from the exact value.
 double allowance(const EncodingTwin::Part& part, double finestScale) {
     const EncodingConfig& c = part.config;
-    switch (c.type) {
-    case EncodingType::Empty:
-        return 0.0;
-    case EncodingType::Identity: // a product and a sum of numbers below 4
-        return 2.0 * kUlp;
-    case EncodingType::Frequency: // of numbers below 2 before the sine, whose slope is pi / 2, and in its sum
-        return 4.0 * kUlp;
-    case EncodingType::TriangleWave: // of numbers below 2, of which one may be negative
-        return 2.0 * kUlp;
-    case EncodingType::OneBlob: // x bins, whose error changes the mass by less; a sixteenth power, twice
-        return (c.gaussian ? 16.0 : 2.0) * kUlp + 0.625 * c.bins * kUlp;
-    case EncodingType::SphericalHarmonics: // polynomials of five roundings, with coefficients below 3
-        return 8.0 * kUlp;
-    default: // x scale and the scale are rounded; features of -1 to 1 differ by 2 in each direction
-        return (2.0 * c.dims * finestScale + 8.0) * kUlp;
-    }
+    if (c.otype == "Empty") return 0.0;
+    if (c.otype == "Identity") return 2.0 * kUlp; // a product and a sum of numbers below 4
+    // Of numbers below 2 before the sine, whose slope is pi / 2, and in its sum.
+    if (c.otype == "Frequency") return 4.0 * kUlp;
+    if (c.otype == "TriangleWave") return 2.0 * kUlp; // of numbers below 2, of which one may be negative
+    if (c.otype == "OneBlob") // x bins, whose error changes the mass by less; a sixteenth power, twice
+        return (c.whole("kernel") == 1 ? 16.0 : 2.0) * kUlp + 0.625 * c.number("n_bins") * kUlp;
+    // Polynomials of five roundings, with coefficients below 3.
+    if (c.otype == "SphericalHarmonics") return 8.0 * kUlp;
+    // x scale and the scale are rounded; features of -1 to 1 differ by 2 in each direction.
+    return (2.0 * c.dims * finestScale + 8.0) * kUlp;
 }
 
 // Of each value of a row; 0 between the parts.

@@ -20,7 +20,7 @@ std::vector<double> storedUniform(reference::Random& random, size_t count, doubl
 // Unit vectors in place of the inputs of spherical harmonics.
 void normaliseDirections(const EncodingTwin& twin, std::vector<double>& inputs, size_t perRow) {
     for (const EncodingTwin::Part& part : twin.parts()) {
-        if (part.config.type != EncodingType::SphericalHarmonics) continue;
+        if (part.config.otype != "SphericalHarmonics") continue;
         for (size_t at = part.firstInput; at < inputs.size(); at += perRow) {
             double* d = &inputs[at];
             for (size_t i = 0; i < 3; ++i) d[i] = 4.0 / 3.0 * (d[i] - 0.5);

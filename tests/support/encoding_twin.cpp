@@ -24,22 +24,15 @@ Values inputsOf(const EncodingTwin::Part& made, const Values& x) {
 
 Values valuesOf(const EncodingTwin::Part& made, const Values& x, const Values& features) {
     const EncodingConfig& c = made.config;
-    switch (c.type) {
-    case EncodingType::Empty:
-        return {};
-    case EncodingType::Identity:
-        return reference::identity(x, c.scale, c.offset);
-    case EncodingType::Frequency:
-        return reference::frequency(x, static_cast<int>(c.frequencies));
-    case EncodingType::TriangleWave:
-        return reference::triangleWave(x, static_cast<int>(c.frequencies));
-    case EncodingType::OneBlob:
-        return reference::oneBlob(x, static_cast<int>(c.bins), c.gaussian);
-    case EncodingType::SphericalHarmonics:
-        return reference::sphericalHarmonics({x[0], x[1], x[2]}, static_cast<int>(c.degree));
-    default:
-        return made.grid->encode(x, features);
-    }
+    const auto whole = [&](const char* key) { return static_cast<int>(c.whole(key)); };
+    if (c.otype == "Empty") return {};
+    if (c.otype == "Identity") return reference::identity(x, c.number("scale"), c.number("offset"));
+    if (c.otype == "Frequency") return reference::frequency(x, whole("n_frequencies"));
+    if (c.otype == "TriangleWave") return reference::triangleWave(x, whole("n_frequencies"));
+    if (c.otype == "OneBlob") return reference::oneBlob(x, whole("n_bins"), whole("kernel") == 1);
+    if (c.otype == "SphericalHarmonics")
+        return reference::sphericalHarmonics({x[0], x[1], x[2]}, whole("degree"));
+    return made.grid->encode(x, features);
 }
 
 std::vector<Values> asValues(std::span<const glm::vec3> points, size_t dims) {
@@ -51,7 +44,7 @@ std::vector<Values> asValues(std::span<const glm::vec3> points, size_t dims) {
 // Of a level whose table is not a list of corners.
 uint64_t tableSize(const EncodingConfig& c, uint32_t cornersOnEdge) {
     const auto corners = static_cast<uint64_t>(std::pow(cornersOnEdge, c.dims));
-    const uint64_t most = c.type == EncodingType::HashGrid ? uint64_t{1} << c.log2HashmapSize : UINT64_MAX;
+    const uint64_t most = c.otype == "HashGrid" ? uint64_t{1} << c.whole("log2_hashmap_size") : UINT64_MAX;
     return corners > most ? most : roundUp(corners, 8);
 }
 
@@ -59,25 +52,25 @@ uint64_t tableSize(const EncodingConfig& c, uint32_t cornersOnEdge) {
 
 reference::FeatureGrid EncodingTwin::makeGrid(const EncodingConfig& c, std::span<const glm::vec3> touched) {
     reference::FeatureGrid grid;
-    grid.featuresPerLevel = c.featuresPerLevel;
-    grid.mean = c.mean;
-    uint64_t next = features_ / c.featuresPerLevel;
-    for (uint32_t l = 0; l < c.levels; ++l) {
-        reference::GridLevel level =
-            reference::gridLevel(static_cast<int>(l), c.baseResolution, c.perLevelScale);
+    grid.featuresPerLevel = c.whole("n_features_per_level");
+    grid.mean = c.whole("aggregation") == 1;
+    uint64_t next = features_ / grid.featuresPerLevel;
+    for (uint32_t l = 0; l < c.whole("n_levels"); ++l) {
+        reference::GridLevel level = reference::gridLevel(static_cast<int>(l), c.whole("base_resolution"),
+                                                          c.number("per_level_scale"));
         level.firstEntry = next;
-        if (c.type == EncodingType::SparseGrid) {
+        if (c.otype == "SparseGrid") {
             const std::vector<Values> points = asValues(touched, c.dims);
             level.entry = reference::touchedEntry(level, points);
             next += roundUp(reference::touchedCount(level, points), 8);
         } else {
-            const uint32_t onEdge = level.resolution + (c.type == EncodingType::DenseGrid ? 1 : 0);
+            const uint32_t onEdge = level.resolution + (c.otype == "DenseGrid" ? 1 : 0);
             level.entry = reference::tableEntry(onEdge, c.dims, tableSize(c, onEdge));
             next += tableSize(c, onEdge);
         }
         grid.levels.push_back(level);
     }
-    features_ = roundUp(next * c.featuresPerLevel, 16);
+    features_ = roundUp(next * grid.featuresPerLevel, 16);
     return grid;
 }
 
@@ -90,10 +83,7 @@ EncodingTwin::EncodingTwin(const std::vector<EncodingConfig>& parts, uint32_t in
         Part made{config, 0, 0, 0};
         if (config.dims == 0) made.config.dims = inputs - static_cast<uint32_t>(taken);
         if (!parts_.empty()) made.firstInput = parts_.back().firstInput + parts_.back().config.dims;
-        const EncodingType type = config.type;
-        if (type == EncodingType::DenseGrid || type == EncodingType::SparseGrid ||
-            type == EncodingType::HashGrid)
-            made.grid = makeGrid(made.config, touched);
+        if (config.otype.ends_with("Grid")) made.grid = makeGrid(made.config, touched);
         made.values =
             made.grid ? made.grid->width() : valuesOf(made, Values(made.config.dims, 0.0), {}).size();
         widths.push_back(made.values);

@@ -58,7 +58,7 @@ NetworkHarness::NetworkHarness(const NetworkCase& shape, uint32_t rowsPerLane, u
     , filling_(filling)
     , network_(validatedDevice(), configOf(shape), shape.inputs, shape.outputs, rowsPerLane)
     , weights_(validatedDevice(), "weights", network_.weightCount() * sizeof(float))
-    , packed_(validatedDevice(), "packed weights", network_.packedBytes())
+    , packed_(validatedDevice(), "packed weights", network_.shape().packedBytes())
     , counters_(validatedDevice(), "counters", 2 * sizeof(uint32_t)) {}
 
 reference::Mlp NetworkHarness::twin() const {
@@ -109,10 +109,10 @@ NetworkOutputs NetworkHarness::run(const NetworkBatch& batch, float scale) {
     // Its padding is zero, as the losses write it.
     const Buffer resultGradient = rowBuffer(resultRows(), capacity_, batch.resultGradient, 0.0);
     const Buffer results = used("results", resultRows().bytes(capacity_));
-    const Buffer activations = used("activations", network_.activationBytes(capacity_));
-    const Buffer layerGradients = used("layer gradients", network_.layerGradientBytes(capacity_));
+    const Buffer activations = used("activations", network_.shape().activationBytes(capacity_));
+    const Buffer layerGradients = used("layer gradients", network_.shape().layerGradientBytes(capacity_));
     const Buffer inputGradient = used("input gradient", encodedRows().bytes(capacity_));
-    const Buffer partials = used("partials", network_.partialBytes(capacity_));
+    const Buffer partials = used("partials", network_.shape().partialBytes(capacity_));
     const Buffer gradients = used("gradients", network_.weightCount() * sizeof(float));
     const Buffer scales = makeBuffer<float>(validatedDevice(), "scales", {1e9f, scale});
     const BufferRange inputGradientRange = inputGradient;

@@ -31,7 +31,7 @@ OracleCache::OracleCache(Device& device, const CacheRoom& room, float radiance)
     scale_.set(state);
 }
 
-CacheTap OracleCache::tap() const {
+CacheBuffers OracleCache::buffers() const {
     return {queries_.inputs(), queries_.weights(),  queries_.counters(),
             records_.paths(),  records_.vertices(), records_.queries()};
 }
@@ -78,7 +78,7 @@ OracleRenderer::OracleRenderer(Device& device, const GpuScene& scene, const Boun
                                const NrcOptions& options)
     : device_(device)
     , renderer_(device, scene, bounds, options)
-    , tap_(renderer_.cache().tap()) {
+    , buffers_(renderer_.cache().buffers()) {
     renderer_.setWarmingUp(true); // it is asked from the first frame on
 }
 
@@ -93,9 +93,9 @@ std::vector<reference::TrainingPath> OracleRenderer::trainingPaths() const {
     const auto quads = [&](const BufferRange& range, uint64_t bytes) {
         return download<glm::uvec4>(device_, *range.buffer, paddedRows(count) * bytes / sizeof(glm::uvec4));
     };
-    return unpackPaths({quads(tap_.trainingPaths, gpu::kTrainingPathBytes),
-                        quads(tap_.trainingVertices, gpu::kVertexBytes),
-                        quads(tap_.trainingQueries, gpu::kCacheInputBytes)},
+    return unpackPaths({quads(buffers_.trainingPaths, gpu::kTrainingPathBytes),
+                        quads(buffers_.trainingVertices, gpu::kVertexBytes),
+                        quads(buffers_.trainingQueries, gpu::kCacheInputBytes)},
                        count);
 }
 
@@ -107,10 +107,10 @@ std::vector<glm::vec3> OracleRenderer::targets() const {
 }
 
 std::vector<glm::vec3> OracleRenderer::queryWeights() const {
-    const auto counters = download<uint32_t>(device_, *tap_.counters.buffer, gpu::kCacheCounters);
+    const auto counters = download<uint32_t>(device_, *buffers_.counters.buffer, gpu::kCacheCounters);
     std::vector<glm::vec3> weights;
     for (const glm::uvec4& quad :
-         download<glm::uvec4>(device_, *tap_.queryWeights.buffer, counters[gpu::kQueryCounter]))
+         download<glm::uvec4>(device_, *buffers_.queryWeights.buffer, counters[gpu::kQueryCounter]))
         weights.emplace_back(std::bit_cast<glm::vec4>(quad));
     return weights;
 }

@@ -15,7 +15,7 @@ class OracleCache : public Cache {
 public:
     OracleCache(Device& device, const CacheRoom& room, float radiance);
 
-    CacheTap tap() const override;
+    CacheBuffers buffers() const override;
     void begin(FrameGraph& graph) override { records_.begin(graph); }
     void beginQueries(FrameGraph& graph) override { queries_.begin(graph); }
     void answer(FrameGraph& graph, BufferRange radiance) override;
@@ -56,7 +56,7 @@ public:
 private:
     Device& device_;
     NrcRenderer renderer_;
-    CacheTap tap_;
+    CacheBuffers buffers_;
 };
 
 } // namespace irradia::test

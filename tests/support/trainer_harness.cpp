@@ -152,34 +152,25 @@ std::vector<double> TrainerHarness::predict(const TrainingRecords& records, Weig
     return downloadRows(results, kTargetRows, records.count());
 }
 
-// A saved model is the only place where moments are seen: for each group values, moments, averages.
+// A saved model is the only place where moments are seen.
 Learned TrainerHarness::learned() const {
     const TemporaryFolder folder;
     trainer_.save(folder / "model");
-    const ModelFile file = readModel(folder / "model", trainer_.shapeName(), 4 * trainer_.parameterCount());
-    Learned learned;
-    learned.state = file.state;
-    auto from = file.content.begin();
-    for (const uint64_t count : {weightCount(), trainer_.parameterCount() - weightCount()})
-        for (auto* to : {&learned.values, &learned.firstMoments, &learned.secondMoments, &learned.averages}) {
-            to->insert(to->end(), from, from + static_cast<ptrdiff_t>(count));
-            from += static_cast<ptrdiff_t>(count);
-        }
-    return learned;
+    const ModelFile file = ModelFile::read(folder / "model", kNetworkModel);
+    const auto floats = [&](const char* name) { return file.values<float>(name, trainer_.parameterCount()); };
+    return {floats("parameters"), floats("first moments"), floats("second moments"), floats("averages"),
+            file.values<gpu::TrainingState>("counters", 1).front()};
 }
 
 void TrainerHarness::setLearned(const Learned& learned) {
-    const TemporaryFolder folder;
-    std::vector<float> content;
-    const auto weights = static_cast<ptrdiff_t>(weightCount());
-    for (const bool features : {false, true})
-        for (const auto* from :
-             {&learned.values, &learned.firstMoments, &learned.secondMoments, &learned.averages})
-            content.insert(content.end(), from->begin() + (features ? weights : 0),
-                           features ? from->end() : from->begin() + weights);
-    writeModel(folder / "model",
-               {trainer_.shapeName(), toJson(trainer_.config()), learned.state, std::move(content)});
-    trainer_.load(folder / "model");
+    ModelFile file(kNetworkModel);
+    file.addText("shape", trainer_.shapeName());
+    file.add<gpu::TrainingState>("counters", std::span(&learned.state, 1));
+    file.add<float>("parameters", learned.values);
+    file.add<float>("first moments", learned.firstMoments);
+    file.add<float>("second moments", learned.secondMoments);
+    file.add<float>("averages", learned.averages);
+    trainer_.load(file);
 }
 
 reference::Training TrainerHarness::twin() const {

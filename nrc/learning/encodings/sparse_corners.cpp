@@ -1,4 +1,4 @@
-#include "nrc/learning/sparse_corners.h"
+#include "nrc/learning/encodings/sparse_corners.h"
 
 #include "engine/error.h"
 #include <algorithm>

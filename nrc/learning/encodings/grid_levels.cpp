@@ -1,8 +1,7 @@
-#include "nrc/learning/feature_grid.h"
+#include "nrc/learning/encodings/grid_levels.h"
 
 #include "engine/error.h"
-#include "nrc/learning/checksum.h"
-#include "nrc/learning/sparse_corners.h"
+#include "nrc/learning/encodings/sparse_corners.h"
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -10,8 +9,7 @@
 namespace irradia {
 namespace {
 
-constexpr uint64_t kGridAlignment = 16;        // features: whole entries of any grid
-constexpr uint64_t kEntryAlignment = 8;        // whole records of any number of features
+constexpr uint64_t kEntryAlignment = 8;        // whole quads of any number of features
 constexpr uint32_t kMaxSparseResolution = 129; // of a level whose corners are listed
 
 uint64_t alignedEntries(uint64_t entries) {
@@ -22,46 +20,47 @@ uint64_t power(uint64_t base, uint32_t exponent) {
     return exponent == 0 ? 1 : base * power(base, exponent - 1);
 }
 
-void checkConfig(const EncodingConfig& config, std::span<const glm::vec3> touched) {
+void checkConfig(const GridConfig& config, std::span<const glm::vec3> touched) {
     if (config.levels < 1 || config.levels > gpu::kMaxGridLevels)
         fail(ExitCode::BadData, "encoding: a grid has 1 to {} levels, not {}", gpu::kMaxGridLevels,
              config.levels);
     if (!std::has_single_bit(config.featuresPerLevel) || config.featuresPerLevel > 16)
         fail(ExitCode::BadData, "encoding: a grid has 1, 2, 4, 8 or 16 features a level, not {}",
              config.featuresPerLevel);
-    if (config.type == EncodingType::SparseGrid && touched.empty())
+    if (config.kind == gpu::kGridSparse && touched.empty())
         fail(ExitCode::BadData,
              "encoding: a SparseGrid needs the points whose voxels it stores, there are 0");
 }
 
 // Müller et al. 2022, section 3: the cells an edge at level l, less one.
-double scaleOf(const EncodingConfig& config, uint32_t level) {
+double scaleOf(const GridConfig& config, uint32_t level) {
     return config.baseResolution * std::pow(config.perLevelScale, level) - 1.0;
 }
 
-gpu::GridLevel hashLevel(const EncodingConfig& config, float scale, uint32_t resolution) {
+gpu::GridLevel hashLevel(const GridConfig& config, float scale, uint32_t resolution) {
     const uint64_t table = uint64_t{1} << config.log2HashmapSize;
     const uint64_t corners = power(resolution, config.dims);
     if (corners > table) return {scale, 0, 0, static_cast<uint32_t>(table)};
     return {scale, resolution, 0, static_cast<uint32_t>(alignedEntries(corners))};
 }
 
-gpu::GridLevel denseLevel(const EncodingConfig& config, float scale, uint32_t resolution) {
+gpu::GridLevel denseLevel(const GridConfig& config, float scale, uint32_t resolution) {
     const uint64_t corners = alignedEntries(power(resolution + 1, config.dims));
     return {scale, resolution + 1, 0, static_cast<uint32_t>(std::min<uint64_t>(corners, UINT32_MAX))};
 }
 
 // Lists the corners of the voxels that hold a point; the level's `size` becomes their number.
-void addSparseLevel(FeatureGrid& grid, gpu::GridLevel level, const EncodingConfig& config,
-                    const VkPhysicalDeviceLimits& limits, std::span<const glm::vec3> touched) {
+void addSparseLevel(FeatureGrid& grid, gpu::GridLevel level, const GridConfig& config,
+                    const FeatureRoom& room) {
     level.first = static_cast<uint32_t>(grid.entries.size());
     const uint64_t listed = grid.entries.size() + level.size;
-    const uint64_t most = std::min<uint64_t>(limits.maxStorageBufferRange / 4, limits.maxTexelBufferElements);
+    const uint64_t most =
+        std::min<uint64_t>(room.limits.maxStorageBufferRange / 4, room.limits.maxTexelBufferElements);
     if (listed > most)
         fail(ExitCode::OutOfMemory,
              "encoding: a SparseGrid up to level {} lists {} corners, a binding holds {}", grid.levels.size(),
              listed, most);
-    const std::vector<uint32_t> corners = touchedCorners(level, config.dims, touched);
+    const std::vector<uint32_t> corners = touchedCorners(level, config.dims, room.touched);
     grid.entries.resize(listed, gpu::kAbsentEntry);
     for (size_t i = 0; i < corners.size(); ++i)
         grid.entries[level.first + corners[i]] = static_cast<uint32_t>(grid.end + i);
@@ -70,8 +69,7 @@ void addSparseLevel(FeatureGrid& grid, gpu::GridLevel level, const EncodingConfi
     grid.end += level.size;
 }
 
-} // namespace
-
+// Throws Error(OutOfMemory) where so many features, each with 8 bytes of gradient sums, outgrow a binding.
 void requireBindable(uint64_t features, const std::string& what, const VkPhysicalDeviceLimits& limits) {
     const uint64_t bytes = features * 8;
     if (bytes > limits.maxStorageBufferRange)
@@ -82,51 +80,34 @@ void requireBindable(uint64_t features, const std::string& what, const VkPhysica
              static_cast<double>(limits.maxStorageBufferRange) / 1048576.0);
 }
 
-FeatureGrid makeFeatureGrid(const EncodingConfig& config, uint64_t first,
-                            const VkPhysicalDeviceLimits& limits, std::span<const glm::vec3> touched) {
-    checkConfig(config, touched);
+} // namespace
+
+FeatureGrid makeFeatureGrid(const GridConfig& config, const FeatureRoom& room) {
+    checkConfig(config, room.touched);
     FeatureGrid grid;
-    grid.end = first;
+    grid.end = room.first / config.featuresPerLevel;
     for (uint32_t l = 0; l < config.levels; ++l) {
         const double scale = scaleOf(config, l);
         const auto resolution = static_cast<uint32_t>(std::ceil(scale)) + 1;
         const auto narrowed = static_cast<float>(scale);
         const std::string what = fmt::format("a grid up to level {} of {} cells an edge", l, resolution);
-        if (config.type == EncodingType::SparseGrid) {
-            grid.kind = gpu::kGridSparse;
+        if (config.kind == gpu::kGridSparse) {
             if (resolution > kMaxSparseResolution)
                 fail(ExitCode::BadData,
                      "encoding: level {} of a SparseGrid has {} cells an edge, at most {} are allowed", l,
                      resolution, kMaxSparseResolution);
-            addSparseLevel(grid, denseLevel(config, narrowed, resolution), config, limits, touched);
+            addSparseLevel(grid, denseLevel(config, narrowed, resolution), config, room);
         } else {
-            const bool hash = config.type == EncodingType::HashGrid;
-            grid.kind = hash ? gpu::kGridHash : gpu::kGridDense;
-            gpu::GridLevel level =
-                hash ? hashLevel(config, narrowed, resolution) : denseLevel(config, narrowed, resolution);
-            requireBindable((grid.end + level.size) * config.featuresPerLevel, what, limits);
+            gpu::GridLevel level = config.kind == gpu::kGridHash ? hashLevel(config, narrowed, resolution)
+                                                                 : denseLevel(config, narrowed, resolution);
+            requireBindable((grid.end + level.size) * config.featuresPerLevel, what, room.limits);
             level.first = static_cast<uint32_t>(grid.end);
             grid.levels.push_back(level);
             grid.end += level.size;
         }
-        requireBindable(grid.end * config.featuresPerLevel, what, limits);
+        requireBindable(grid.end * config.featuresPerLevel, what, room.limits);
     }
     return grid;
-}
-
-FeatureGrids layOutGrids(const EncodingLayout& layout, const VkPhysicalDeviceLimits& limits,
-                         std::span<const glm::vec3> touched) {
-    FeatureGrids all;
-    for (const EncodingSlice& slice : layout.slices) {
-        if (!isGrid(slice.config.type)) continue;
-        const uint64_t perEntry = slice.config.featuresPerLevel;
-        all.grids.push_back(makeFeatureGrid(slice.config, all.features / perEntry, limits, touched));
-        const FeatureGrid& grid = all.grids.back();
-        if (grid.kind == gpu::kGridSparse)
-            all.storedCorners = checksum<uint32_t>(grid.entries, all.storedCorners.value_or(0));
-        all.features = (grid.end * perEntry + kGridAlignment - 1) / kGridAlignment * kGridAlignment;
-    }
-    return all;
 }
 
 } // namespace irradia

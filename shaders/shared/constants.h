@@ -1,0 +1,37 @@
+// constant_id of the specialisation constants that C++ sets and kernels declare. 0 and 1, the sizes of workgroup and
+// subgroup, are engine/gpu/kernel's.
+#ifndef IRRADIA_SHARED_CONSTANTS_H
+#define IRRADIA_SHARED_CONSTANTS_H
+#include "shared/types.h"
+SHARED_BEGIN
+
+// Learning: a slice of an encoding (learning/encode.glsl).
+SHARED_CONST uint kConstantSliceInputQuads = 20u; // of a row of inputs
+SHARED_CONST uint kConstantSliceFirstInput = 21u;
+SHARED_CONST uint kConstantSliceDims = 22u;
+SHARED_CONST uint kConstantSliceEncodedQuads = 23u; // of a row of the whole composite
+SHARED_CONST uint kConstantSliceFirstQuad = 24u;
+SHARED_CONST uint kConstantSlicePaddingQuads = 25u;
+// An encoding's own constants: this one and those that follow, in the order in which its .cpp gives them.
+SHARED_CONST uint kConstantOwn = 64u;
+
+// Learning: the shape of a network (learning/mlp_shape.glsl).
+SHARED_CONST uint kConstantInputQuads = 26u;
+SHARED_CONST uint kConstantWidthQuads = 27u;
+SHARED_CONST uint kConstantHiddenLayers = 28u;
+SHARED_CONST uint kConstantOutputQuads = 29u;
+SHARED_CONST uint kConstantOutputActivation = 30u; // kOutputNone, ...
+// How its kernels share the work.
+SHARED_CONST uint kConstantLaneRows = 31u;        // subgroup form: rows of a lane
+SHARED_CONST uint kConstantGroupRows = 32u;       // workgroup form: rows of a workgroup
+SHARED_CONST uint kConstantGroupOutputs = 33u;    // workgroup form: outputs whose weights are loaded together
+SHARED_CONST uint kConstantOutputsTogether = 34u; // of a block of the weights' gradient
+SHARED_CONST uint kConstantQuadsTogether = 35u;   // likewise, workgroup form
+SHARED_CONST uint kConstantInputGradient = 36u;   // the gradient by the inputs is wanted
+
+// Learning: the loss.
+SHARED_CONST uint kConstantLoss = 37u; // kLossL2, ...
+SHARED_CONST uint kConstantLossOutputs = 38u;
+
+SHARED_END
+#endif

@@ -14,14 +14,15 @@ namespace irradia {
 namespace {
 
 // Constants of every kernel that includes path/needs.glsl.
-KernelOptions fitted(const SceneNeeds& needs, uint32_t view) {
+KernelOptions fitted(const SceneNeeds& needs, uint32_t view, uint32_t sampler) {
     KernelOptions options;
     options.constants = {{gpu::kConstantEnvironment, needs.environment},
                          {gpu::kConstantEmitters, needs.emitters},
                          {gpu::kConstantTextures, needs.textures},
                          {gpu::kConstantSpecular, needs.specular},
                          {gpu::kConstantView, view},
-                         {gpu::kConstantLightTree, needs.lightTree}};
+                         {gpu::kConstantLightTree, needs.lightTree},
+                         {gpu::kConstantSampler, sampler}};
     return options;
 }
 
@@ -71,8 +72,8 @@ WavefrontPathTracer::WavefrontPathTracer(Device& device, const GpuScene& scene,
     , graph_(device, profiler)
     , waveSize_(PathBuffers::largestWave(device.isCpu(), options))
     , buffers_(device, options) {
-    const KernelOptions fit = fitted(scene.needs, options.view);
-    kernels_.generateCameraRays = Kernel(device, kernels::generate_camera_rays);
+    const KernelOptions fit = fitted(scene.needs, options.view, options.sampler);
+    kernels_.generateCameraRays = Kernel(device, kernels::generate_camera_rays, fit);
     kernels_.beginBounce = Kernel(device, kernels::begin_bounce);
     kernels_.intersectClosest = Kernel(device, kernels::intersect_closest);
     const auto either = [&](const KernelSource& plain, const KernelSource& cached) -> const KernelSource& {

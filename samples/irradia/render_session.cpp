@@ -25,6 +25,12 @@ RecordAccess parseRecords(const std::string& text) {
     return RecordAccess::Auto;
 }
 
+uint32_t parseSampler(const std::string& text) {
+    if (text == "sobol") return gpu::kSamplerSobol;
+    if (text == "random") return gpu::kSamplerRandom;
+    fail(ExitCode::Usage, "--sampler {} is unknown; there are sobol and random", text);
+}
+
 NrcConfig nrcConfig(const RenderRequest& request) {
     NrcConfig config =
         request.preset.ends_with(".json") ? loadNrcConfig(request.preset) : nrcPreset(request.preset);
@@ -125,6 +131,13 @@ void addRequestOptions(CLI::App& command, RenderRequest& request) {
     addWhole(command, "--seed", request.seed, "Of the random numbers", 0, UINT32_MAX)
         ->group("Method")
         ->capture_default_str();
+    command
+        .add_option("--sampler", request.sampler,
+                    "Numbers of a pixel's samples: sobol (spread evenly, Owen-scrambled) or random "
+                    "(independent)")
+        ->type_name("NAME")
+        ->group("Method")
+        ->capture_default_str();
     command.add_option("--device", request.device.select, "Index, name, cpu or gpu")->group("Device");
     command.add_flag("--validation", request.device.validation, "Vulkan's validation layers")
         ->group("Device");
@@ -195,6 +208,7 @@ NrcOptions RenderSession::rendererOptions() const {
     options.paths.maxBounces = request_.maxBounces;
     options.paths.samplesPerFrame = request_.samplesPerFrame;
     options.paths.seed = request_.seed;
+    options.paths.sampler = parseSampler(request_.sampler);
     options.paths.surfaces = request_.surfaces;
     options.seed = request_.seed;
     if (!hasCache()) return options;

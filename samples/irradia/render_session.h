@@ -22,6 +22,7 @@ struct RenderRequest {
     uint32_t samplesPerFrame = 1;
     uint32_t maxBounces = 16;
     uint32_t seed = 1;
+    std::string sampler = "sobol";
     std::string preset = "balanced"; // of the methods with a cache: a name, or a file
     std::string view;                // empty = the picture
     std::string reference;           // EXR that the view error-sign compares with

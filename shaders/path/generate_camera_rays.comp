@@ -2,7 +2,6 @@
 #extension GL_GOOGLE_include_directive : require
 // One camera ray per path of the wave: pinhole or orthographic, box pixel filter.
 #include "lib/kernel.glsl"
-#include "lib/rng.glsl"
 #include "shared/path.h"
 #include "shared/queue.h"
 
@@ -10,6 +9,7 @@ RECORDS_WRITE(0, rays);
 layout(set = 0, binding = 1, std430) writeonly buffer Radiance { vec4 radiance[]; };
 COUNTERS(2, counters);
 layout(push_constant) uniform Push { CameraParams params; };
+#include "path/sampler.glsl"
 #include "path/wave.glsl"
 
 void main() {
@@ -20,7 +20,7 @@ void main() {
     uint seen = pixel < kFirstTrainingPixel ? pixel : (pixel - kFirstTrainingPixel) % (params.width * params.height);
     uint y = seen / params.width;
     uint x = seen - y * params.width;
-    vec4 u = unitFloats(randomBits(pixel, sampleOf(path), kCameraBlock, params.seed));
+    vec4 u = unitFloats(sampleBits(pixel, sampleOf(path), kCameraBlock, params.seed));
     vec2 ndc = vec2(2.0 * (float(x) + u.x) / float(params.width) - 1.0, 1.0 - 2.0 * (float(y) + u.y) / float(params.height));
     vec3 across = ndc.x * params.right.xyz + ndc.y * params.up.xyz;
     bool parallel = params.isOrthographic != 0u;

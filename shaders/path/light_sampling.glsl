@@ -7,6 +7,7 @@
 #include "lib/rng.glsl"
 #include "path/emitters.glsl"
 #include "path/environment.glsl"
+#include "path/sampler.glsl"
 
 struct LightSample {
     vec3 direction; // unit, towards the light
@@ -21,7 +22,7 @@ LightSample sampleEnvironment(uvec4 random) {
     uint count = params.environmentWidth * params.environmentHeight;
     uint texel = uniformIndex(random.x, count);
     uvec4 entry = loadRecord(environmentAlias, texel);
-    texel = unitFloat(random.y) < uintBitsToFloat(entry.x) ? texel : entry.y;
+    texel = unitFloat(aliasBits(random, count)) < uintBitsToFloat(entry.x) ? texel : entry.y;
     uint row = texel / params.environmentWidth;
     uint column = texel - row * params.environmentWidth;
     vec2 uv = (vec2(column, row) + vec2(unitFloat(random.z), unitFloat(random.w))) /
@@ -33,7 +34,7 @@ LightChoice chooseTriangleLight(Receiver receiver, uvec4 random) {
     if (kHasLightTree) return chooseLight(receiver, random.x);
     uint light = uniformIndex(random.x, params.lightCount);
     uvec4 entry = loadRecord(lights, light);
-    light = unitFloat(random.y) < uintBitsToFloat(entry.x) ? light : entry.y;
+    light = unitFloat(aliasBits(random, params.lightCount)) < uintBitsToFloat(entry.x) ? light : entry.y;
     return LightChoice(light, lightChance(light, receiver));
 }
 

@@ -4,6 +4,7 @@
 #define IRRADIA_PATH_LIGHT_TREE_GLSL
 #include "lib/math.glsl"
 #include "lib/rng.glsl"
+#include "path/sampler.glsl"
 #include "shared/scene.h"
 
 struct Receiver {
@@ -65,10 +66,13 @@ struct LightChoice {
 LightChoice chooseLight(Receiver receiver, uint random) {
     uint child = rootChild();
     float chance = 1.0;
+    float u = unitFloat(random);
     while ((child & kLightLeaf) == 0u) {
         LightPair pair = lightPair(child, receiver);
         random = pcg(random);
-        bool first = unitFloat(random) < pair.chanceOfFirst;
+        float fresh = unitFloat(random);
+        bool first = (kSampler == kSamplerRandom ? fresh : u) < pair.chanceOfFirst;
+        if (kSampler != kSamplerRandom) u = leftOf(u, pair.chanceOfFirst, first, fresh);
         chance *= first ? pair.chanceOfFirst : 1.0 - pair.chanceOfFirst;
         child = first ? pair.first : pair.second;
         if (!pair.reaches) return LightChoice(0u, 0.0);

@@ -33,6 +33,7 @@ layout(push_constant) uniform Push { BounceParams params; CacheRule rule; };
 layout(push_constant) uniform Push { BounceParams params; };
 #endif
 #include "path/light_sampling.glsl"
+#include "path/sampler.glsl"
 #include "path/wave.glsl"
 #include "path/reflectance.glsl"
 #include "path/surface.glsl"
@@ -93,11 +94,11 @@ void main() {
 
     uint normalCode = encodeOctahedral(s.shadingNormal); // as a ray's emissive hit will find it
     if (kHasEmitters || kHasEnvironment) {
+        uvec4 random = lightBits(pixel, sampleIndex, params.depth, params.seed);
         float choice = kHasEmitters && kHasEnvironment
-                           ? unitFloat(randomBits(pixel, sampleIndex, lightChoiceBlock(params.depth), params.seed).x)
+                           ? unitFloat(lightChoiceBits(random, pixel, sampleIndex, params.depth, params.seed))
                            : 0.0;
-        LightSample light = sampleLight(
-            Receiver(origin, decodeOctahedral(normalCode)), randomBits(pixel, sampleIndex, lightBlock(params.depth), params.seed), choice);
+        LightSample light = sampleLight(Receiver(origin, decodeOctahedral(normalCode)), random, choice);
         vec3 l = toLocal(frame, light.direction);
         float mend = min(mendView, diffuseMend(s.bsdf, reflectanceAt(l.z, s.roughness)));
         BsdfValue value = evaluateBsdf(s.bsdf, v, l, mend, pSpecular, kHasSpecular);
@@ -112,7 +113,7 @@ void main() {
         pushShadowRay(alive && counts, origin, light.tMax, light.direction, path, contribution);
     }
 
-    vec4 u = unitFloats(randomBits(pixel, sampleIndex, bsdfBlock(params.depth), params.seed));
+    vec4 u = unitFloats(bsdfBits(pixel, sampleIndex, params.depth, params.seed));
     vec3 l = sampleBsdf(s.bsdf, v, u.xyz, pSpecular, kHasSpecular);
     vec3 direction = toWorld(frame, l);
     float mend = min(mendView, diffuseMend(s.bsdf, reflectanceAt(l.z, s.roughness)));

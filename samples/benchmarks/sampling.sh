@@ -9,7 +9,8 @@ usage() {
     cat <<'END'
 usage: samples/benchmarks/sampling.sh [TABLE...]     after ./quickstart build
 
-  worth     variance x time, sobol over random: the median of pairs of seeds, and the least and largest
+  worth     variance x time, sobol over random: the median of pairs of seeds, the least and the largest, without the
+            largest hundredth of the pixels; the mean of pairs with all of them; the time of a frame alone
   samples   variance after so many samples, sobol and random
 
 Without a name both are written. Environment: SCENES (names, or .glb files with a camera file beside them, default
@@ -43,7 +44,7 @@ milliseconds() {
 
 # Pictures of one method by both samplers, in turn: $folder/SAMPLER-SEED.exr and their mean, and .ms with a frame's time.
 pictures_of() { # SCENE METHOD FRAMES SEEDS
-    all=
+    all=''
     for seed in $(seq 1 "$4"); do
         for sampler in random sobol; do
             render "$1" $folder/$sampler-"$seed".exr --method "$2" --frames "$3" --seed "$seed" --sampler $sampler
@@ -59,22 +60,24 @@ noise() { # SAMPLER SEED: of it and the next
     build/bin/pictures noise $folder/"$1"-"$2".exr $folder/"$1"-$(($2 + 1)).exr $folder/mean.exr
 }
 
-frame_times() { # SAMPLER SEED
-    cat $folder/"$1"-"$2".ms $folder/"$1"-$(($2 + 1)).ms
+frame_time() { # SAMPLER SEED: of its frames and those of the next
+    cat $folder/"$1"-"$2".ms $folder/"$1"-$(($2 + 1)).ms | awk '{ sum += $1 } END { print sum }'
 }
 
 worth_table() {
-    echo "| scene, method | variance x time | time |"
-    echo "|---|---|---|"
+    echo "| scene, method | variance × time | all pixels | time |"
+    echo "|---|---|---|---|"
     for scene in $scenes; do
         for method in $methods; do
             pictures_of "$scene" "$method" "$frames" $((2 * pairs))
             for pair in $(seq 1 2 $((2 * pairs))); do
-                echo "$(noise sobol "$pair")" "$(noise random "$pair")" $(frame_times sobol "$pair") $(frame_times random "$pair")
-            done | awk '{ time = ($3 + $4) / ($5 + $6); print $1 / $2 * time, time }' | sort -g >$folder/pairs
-            awk -v what="\`$(basename "$scene" .glb)\`, \`$method\`" '{ worth[NR] = $1; time += $2 / '"$pairs"' }
-                END { printf "| %s | %.2f (%.2f to %.2f) | %.3f |\n", what, worth[int((NR + 1) / 2)], worth[1], worth[NR], time }' \
-                $folder/pairs
+                echo "$(noise sobol "$pair") $(noise random "$pair")" \
+                    "$(frame_time sobol "$pair") $(frame_time random "$pair")"
+            done | awk '{ print $1 / $3 * $5 / $6, $2 / $4 * $5 / $6, $5 / $6 }' | sort -g >$folder/pairs
+            awk -v what="\`$(basename "$scene" .glb)\`, \`$method\`" -v pairs="$pairs" '
+                { worth[NR] = $1; all += $2 / pairs; time += $3 / pairs }
+                END { printf "| %s | %.2f (%.2f to %.2f) | %.2f | %.2f |\n",
+                          what, worth[int((NR + 1) / 2)], worth[1], worth[NR], all, time }' $folder/pairs
         done
     done
 }
@@ -84,11 +87,12 @@ samples_table() {
     echo "|---|---|---|---|---|---|"
     for scene in $scenes; do
         for method in $methods; do
-            random= sobol=
+            random=''
+            sobol=''
             for samples in 1 4 16 64 256; do
                 pictures_of "$scene" "$method" $samples 2
-                random="$random $(LC_ALL=C printf '%.2g |' "$(noise random 1)")"
-                sobol="$sobol $(LC_ALL=C printf '%.2g |' "$(noise sobol 1)")"
+                random="$random $(LC_ALL=C printf '%.2g |' "$(noise random 1 | cut -d " " -f 1)")"
+                sobol="$sobol $(LC_ALL=C printf '%.2g |' "$(noise sobol 1 | cut -d " " -f 1)")"
             done
             echo "| \`$(basename "$scene" .glb)\`, \`$method\`, random |$random"
             echo "| the same, sobol |$sobol"

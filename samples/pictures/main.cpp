@@ -58,14 +58,16 @@ void addMean(CLI::App& program, Request& request) {
 }
 
 void addNoise(CLI::App& program, Request& request) {
-    CLI::App* noise = program.add_subcommand(
-        "noise", "Variance of two pictures that differ in their seed alone, over the square of a third");
-    noise->add_option("pictures", request.pictures, "Two EXR files and what they show, all of one size")
+    CLI::App* verb = program.add_subcommand(
+        "noise", "Variance of two pictures that differ in their seed alone, relative to a third: without the "
+                 "largest hundredth of the pixels, and of all");
+    verb->add_option("pictures", request.pictures, "Two EXR files and what they show, all of one size")
         ->required()
         ->expected(3);
-    noise->callback([&request] {
+    verb->callback([&request] {
         const std::vector<LayeredImage> pictures = readAll(request.pictures);
-        printResult("{:.6g}\n", noiseOf(pictures[0], pictures[1], pictures[2]));
+        const Noise noise = noiseOf(pictures[0], pictures[1], pictures[2]);
+        printResult("{:.6g} {:.6g}\n", noise.most, noise.all);
     });
 }
 

@@ -7,7 +7,7 @@
 
 namespace irradia {
 
-double noiseOf(const LayeredImage& a, const LayeredImage& b, const LayeredImage& reference) {
+Noise noiseOf(const LayeredImage& a, const LayeredImage& b, const LayeredImage& reference) {
     requireSameSize(std::array{a, b, reference});
     const std::vector<glm::vec3> first = a.rgb(), second = b.rgb(), truth = reference.rgb();
     std::vector<double> errors;
@@ -20,9 +20,15 @@ double noiseOf(const LayeredImage& a, const LayeredImage& b, const LayeredImage&
         if (!std::isfinite(sum)) fail(ExitCode::BadData, "{} or {}: pixels that are no numbers", a.name, b.name);
         errors.push_back(sum);
     }
+    const auto mean = [&] {
+        return std::accumulate(errors.begin(), errors.end(), 0.0) / static_cast<double>(errors.size());
+    };
     std::ranges::sort(errors);
+    Noise noise;
+    noise.all = mean();
     errors.resize(errors.size() - errors.size() / 100);
-    return std::accumulate(errors.begin(), errors.end(), 0.0) / static_cast<double>(errors.size());
+    noise.most = mean();
+    return noise;
 }
 
 } // namespace irradia

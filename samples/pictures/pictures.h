@@ -16,8 +16,12 @@ Rgba8Image pictureRow(std::span<const LayeredImage> pictures, int scale);
 LayeredImage meanPicture(std::span<const LayeredImage> pictures);
 
 // Variance of pictures like a and b, which differ in their seed alone: the mean over pixels and channels of
-// (a - b)^2 / 2 / (reference^2 + 0.01), the largest hundredth of the pixels left out, which a few bright paths decide.
-double noiseOf(const LayeredImage& a, const LayeredImage& b, const LayeredImage& reference);
+// (a - b)^2 / 2 / (reference^2 + 0.01).
+struct Noise {
+    double most = 0.0; // of the pixels, the largest hundredth left out, which a few bright paths decide
+    double all = 0.0;
+};
+Noise noiseOf(const LayeredImage& a, const LayeredImage& b, const LayeredImage& reference);
 
 // R, G and B in half floats: relative steps of 2^-11 at most. Throws Error(BadData) where a value is beyond.
 void writeHalfExr(const std::filesystem::path& file, const LayeredImage& picture);

@@ -25,11 +25,10 @@ using Points = std::vector<glm::uvec4>;
 Points draw(const glm::uvec4& first, uint32_t pixels, uint32_t samples, uint32_t which = gpu::kSamplerBlock,
             uint32_t sampler = gpu::kSamplerSobol) {
     static std::map<uint32_t, test::KernelHarness> kernels;
-    const auto kernel =
-        kernels
-            .try_emplace(sampler, kernels::sampler_path_bits,
-                         std::vector<Specialisation>{{gpu::kConstantSampler, sampler}})
-            .first;
+    const auto kernel = kernels
+                            .try_emplace(sampler, kernels::sampler_path_bits,
+                                         std::vector<Specialisation>{{gpu::kConstantSampler, sampler}})
+                            .first;
     const uint32_t count = pixels * samples;
     return kernel->second.run({}, gpu::SamplerHarnessParams{first, samples, count, which}, count, count);
 }
@@ -157,7 +156,7 @@ TEST_CASE("directions and points of lights get the first two dimensions") {
 
 TEST_CASE("with random numbers every block is what it was") {
     for (const uint32_t which : {gpu::kSamplerBlock, gpu::kSamplerBsdf, gpu::kSamplerLight}) {
-        const uint32_t depth = 4, block = which == gpu::kSamplerBlock ? 4
+        const uint32_t depth = 4, block = which == gpu::kSamplerBlock  ? 4
                                           : which == gpu::kSamplerBsdf ? 2 + 3 * depth
                                                                        : 1 + 3 * depth;
         const Points points = draw({50, 7, 4, kSeed}, 8, 32, which, gpu::kSamplerRandom);
@@ -226,10 +225,10 @@ Correlation correlate(const Points& a, const Points& b, int da, int db) {
     return {sum / std::sqrt(squares), squares / kPixels * kSamples};
 }
 
-// The means of pixels are independent, so that their sum is normal. Spread: products of two numbers that are each
-// even over stretches of 2^k samples vary in such stretches, and their means by more than those of independent
-// numbers: by 1.58 if every node of both scrambles is a fair coin of its own (1.00 would take an order that is
-// good for one number of samples alone).
+// The means of pixels are independent, so that their sum is normal. Spread: products of two numbers that are
+// each even over stretches of 2^k samples vary in such stretches, and their means by more than those of
+// independent numbers: by 1.58 if every node of both scrambles is a fair coin of its own (1.00 would take an
+// order that is good for one number of samples alone).
 constexpr double kMostSpread = 1.75;
 
 struct Worst {

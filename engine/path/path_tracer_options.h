@@ -13,7 +13,7 @@ struct PathTracerOptions {
     uint32_t samplesPerFrame = 1; // samples of a pixel that make one frame
     uint32_t seed = 1;
     uint32_t sampler = gpu::kSamplerSobol; // where the paths' numbers come from
-    bool surfaces = false;             // gather the AOV layers
+    bool surfaces = false;                 // gather the AOV layers
     uint32_t waveSize = 0;             // paths in flight; 0 = the device class's default. Changes no result.
     bool cached = false;               // traceWave is given CachePaths
     uint32_t trainingPaths = 0;        // of one kind in a frame at most, beside those of pixels

@@ -42,22 +42,24 @@ milliseconds() {
     sed -n '/"milliseconds"/,/}/s/.*"total": *\([0-9.e+-]*\).*/\1/p' $folder/stats.json
 }
 
-# Pictures of one method by both samplers, in turn: $folder/SAMPLER-SEED.exr and their mean, and .ms with a frame's time.
+# Sets `reference`, what noise is relative to: with little noise of its own, and by neither sampler's pictures.
+reference_of() { # SCENE
+    reference=$folder/$(basename "$1" .glb)-nrc-512.exr
+    [ -e "$reference" ] || render "$1" "$reference" --method nrc --seed 1000 --frames 512
+}
+
+# Pictures of one method by both samplers, in turn: $folder/SAMPLER-SEED.exr, and .ms with a frame's time.
 pictures_of() { # SCENE METHOD FRAMES SEEDS
-    all=''
     for seed in $(seq 1 "$4"); do
         for sampler in random sobol; do
             render "$1" $folder/$sampler-"$seed".exr --method "$2" --frames "$3" --seed "$seed" --sampler $sampler
             milliseconds >$folder/$sampler-"$seed".ms
-            all="$all $folder/$sampler-$seed.exr"
         done
     done
-    # shellcheck disable=SC2086 # many words
-    build/bin/pictures mean $all -o $folder/mean.exr
 }
 
 noise() { # SAMPLER SEED: of it and the next
-    build/bin/pictures noise $folder/"$1"-"$2".exr $folder/"$1"-$(($2 + 1)).exr $folder/mean.exr
+    build/bin/pictures noise $folder/"$1"-"$2".exr $folder/"$1"-$(($2 + 1)).exr "$reference"
 }
 
 frame_time() { # SAMPLER SEED: of its frames and those of the next
@@ -68,6 +70,7 @@ worth_table() {
     echo "| scene, method | variance × time | all pixels | time |"
     echo "|---|---|---|---|"
     for scene in $scenes; do
+        reference_of "$scene"
         for method in $methods; do
             pictures_of "$scene" "$method" "$frames" $((2 * pairs))
             for pair in $(seq 1 2 $((2 * pairs))); do
@@ -86,6 +89,7 @@ samples_table() {
     echo "| scene, method, sampler | 1 sample | 4 | 16 | 64 | 256 |"
     echo "|---|---|---|---|---|---|"
     for scene in $scenes; do
+        reference_of "$scene"
         for method in $methods; do
             random=''
             sobol=''

@@ -1,5 +1,5 @@
-// pictures: puts EXR pictures into one, side by side for the eye or as their mean for a reference; and tells how
-// much two differ.
+// pictures: puts EXR pictures into one, side by side for the eye or as their mean for a reference; and tells
+// how much two differ.
 #include "samples/pictures/pictures.h"
 #include "samples/support/numbers.h"
 #include "samples/support/outputs.h"

@@ -17,7 +17,8 @@ Noise noiseOf(const LayeredImage& a, const LayeredImage& b, const LayeredImage& 
             const double difference = double(first[i][c]) - second[i][c], t = truth[i][c];
             sum += 0.5 * difference * difference / (t * t + 0.01) / 3.0;
         }
-        if (!std::isfinite(sum)) fail(ExitCode::BadData, "{} or {}: pixels that are no numbers", a.name, b.name);
+        if (!std::isfinite(sum))
+            fail(ExitCode::BadData, "{} or {}: pixels that are no numbers", a.name, b.name);
         errors.push_back(sum);
     }
     const auto mean = [&] {

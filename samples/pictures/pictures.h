@@ -1,5 +1,5 @@
-// What the figures and references of this folder are made with: pictures in a row, the mean of pictures, and how much two
-// of one scene differ.
+// What the figures and references of this folder are made with: pictures in a row, the mean of pictures, and
+// how much two of one scene differ.
 #pragma once
 
 #include "engine/image/image.h"

@@ -17,7 +17,7 @@ uint32_t mirrored(uint32_t x) {
 
 struct Polynomial {
     int degree;
-    std::vector<int> inner;       // coefficients of x^(degree - 1) .. x
+    std::vector<int> inner;      // coefficients of x^(degree - 1) .. x
     std::vector<uint32_t> first; // odd numbers m_1 .. m_degree
 };
 
@@ -57,8 +57,9 @@ Words pcg4d(Words v) {
 }
 
 uint32_t sobol(uint32_t number, int dimension) {
-    static const std::array<std::vector<uint32_t>, 4> m{directions(kPolynomials[0]), directions(kPolynomials[1]),
-                                                        directions(kPolynomials[2]), directions(kPolynomials[3])};
+    static const std::array<std::vector<uint32_t>, 4> m{
+        directions(kPolynomials[0]), directions(kPolynomials[1]), directions(kPolynomials[2]),
+        directions(kPolynomials[3])};
     uint32_t fraction = 0;
     for (int k = 0; k < kPlaces; ++k)
         if ((number >> k & 1u) != 0) fraction ^= m.at(dimension)[k] << (31 - k); // m_k / 2^k

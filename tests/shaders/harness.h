@@ -31,7 +31,8 @@ struct RngHarnessParams {
     uint count;
 };
 
-// Numbers of samples of consecutive pixels: value i is of pixel first.x + i / samples, sample first.y + i % samples.
+// Numbers of samples of consecutive pixels: value i is of pixel first.x + i / samples, sample first.y + i %
+// samples.
 struct SamplerHarnessParams {
     uvec4 first; // pixel, sample, block (or depth), seed
     uint samples;

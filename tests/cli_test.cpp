@@ -195,6 +195,7 @@ TEST_CASE("outputs are refused before the work where they could not be what was 
     checkRefused(render + "-o " + at("no/such/a.exr"), 74, "cannot be written");
     checkRefused(render + "-o " + at("a.exr") + " --exposure 1", 64, "is for PNGs");
     checkRefused(render + "-o " + at("a.png") + " --tonemap filmic", 64, "clip, reinhard, aces");
+    checkRefused(render + "-o " + at("a.exr") + " --sampler halton", 64, "there are sobol and random");
     checkRefused(render + "-o " + at("a.png") + " --exposure auto --view path-length", 64, "shows numbers");
     CHECK(folder.entries() == 1);
 }

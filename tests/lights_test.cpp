@@ -9,6 +9,7 @@
 #include "tests/support/light_scenes.h"
 #include <algorithm>
 #include <catch2/catch_test_macros.hpp>
+#include <catch2/generators/catch_generators_range.hpp>
 #include <cmath>
 #include <numeric>
 
@@ -21,7 +22,9 @@ namespace {
 
 constexpr float kFarAway = 1e30f;
 const Vec3 kNormal = glm::normalize(Vec3(0.2, 0.9, -0.4)); // of the receiver
-const double kLevel = reference::sidakLevel(0.01, 5);      // of each test of distribution
+const double kLevel = reference::sidakLevel(0.01, 10);     // of each test of distribution
+// With Sobol' points one number makes a chain of choices, with random ones each has its own.
+constexpr uint32_t kSamplers[] = {gpu::kSamplerRandom, gpu::kSamplerSobol};
 constexpr double kConeRounding = 0.01; // of octahedral axes, some 1e-4: it shows where a cone just ends
 
 struct Sample {
@@ -38,8 +41,9 @@ struct Sample {
 
 enum class Rays { Cast, None };
 
-std::vector<Sample> drawLights(const Scene& scene, const glm::vec3& origin, uint32_t count, Rays rays) {
-    test::LightHarness harness(scene, kernels::lights_sample);
+std::vector<Sample> drawLights(const Scene& scene, const glm::vec3& origin, uint32_t count, Rays rays,
+                               uint32_t sampler = gpu::kSamplerRandom) {
+    test::LightHarness harness(scene, kernels::lights_sample, {{gpu::kConstantSampler, sampler}});
     gpu::LightHarnessParams params{};
     params.origin = glm::vec4(origin, 0.0f);
     params.normal = glm::vec4(glm::vec3(kNormal), 0.0f);
@@ -132,8 +136,9 @@ struct Choice {
     double found;  // that a ray which meets it finds
 };
 
-std::vector<Choice> chooseLights(const Scene& scene, const glm::vec3& point, uint32_t count) {
-    test::LightHarness harness(scene, kernels::lights_choose);
+std::vector<Choice> chooseLights(const Scene& scene, const glm::vec3& point, uint32_t count,
+                                 uint32_t sampler) {
+    test::LightHarness harness(scene, kernels::lights_choose, {{gpu::kConstantSampler, sampler}});
     gpu::LightHarnessParams params{};
     params.origin = glm::vec4(point, 0.0f);
     params.normal = glm::vec4(glm::vec3(kNormal), 0.0f);
@@ -164,9 +169,10 @@ TEST_CASE("few emitters are chosen by power") {
     const Scene scene = test::manyEmitters(kCount);
     constexpr uint32_t kSamples = 1u << 20;
     std::vector<double> counts(kCount), expected(kCount);
+    const uint32_t sampler = GENERATE(from_range(std::begin(kSamplers), std::end(kSamplers)));
     // An emitter is known by its blue; the back of one-sided ones, which is black, faces away from the
     // origin.
-    for (const Sample& s : drawLights(scene, glm::vec3(0.0f), kSamples, Rays::None))
+    for (const Sample& s : drawLights(scene, glm::vec3(0.0f), kSamples, Rays::None, sampler))
         counts.at(static_cast<size_t>(std::lround(s.radiance.b)) - 1) += 1.0;
     double total = 0.0;
     for (size_t i = 0; i < kCount; ++i) {
@@ -186,13 +192,14 @@ TEST_CASE("few emitters are chosen by power") {
 TEST_CASE("many emitters are chosen as their hierarchy's twin says") {
     const Scene scene = test::manyEmitters(500);
     constexpr uint32_t kSamples = 1u << 20;
+    const uint32_t sampler = GENERATE(from_range(std::begin(kSamplers), std::end(kSamplers)));
     // From the first point all lights lie 2 away; from the second and the third some show their backs.
     for (const glm::vec3& point :
          {glm::vec3(0.0f), glm::vec3(1.9f, 0.1f, -0.2f), glm::vec3(-7.0f, 3.0f, 2.0f)}) {
         const std::vector<double> chances = test::lightChances(treeOf(scene), {Vec3(point), kNormal});
         std::vector<double> counts(501), expected(501); // the last: the way down met no light
         double worst = 0.0, worstFound = 0.0;
-        for (const Choice& c : chooseLights(scene, point, kSamples)) {
+        for (const Choice& c : chooseLights(scene, point, kSamples, sampler)) {
             counts[c.chance > 0.0 ? c.light : 500] += 1.0;
             if (c.chance == 0.0) continue;
             worst = std::max(worst, std::abs(c.chance - chances[c.light]) / (chances[c.light] + 1e-4));
@@ -216,11 +223,12 @@ TEST_CASE("environment texels are chosen by luminance and solid angle, and point
     scene.environment = test::skyWithSun(16, 8);
     const Environment& sky = scene.environment;
     constexpr uint32_t kSamples = 1u << 20;
+    const uint32_t sampler = GENERATE(from_range(std::begin(kSamplers), std::end(kSamplers)));
     constexpr int kParts = 4; // of a texel's side
     const size_t bins = sky.texels.size() * kParts * kParts;
     std::vector<double> counts(bins), expected(bins);
     const auto binOf = [&](int x, int y) { return static_cast<size_t>(y) * 16 * kParts + x; };
-    for (const Sample& s : drawLights(scene, glm::vec3(0.0f), kSamples, Rays::None)) {
+    for (const Sample& s : drawLights(scene, glm::vec3(0.0f), kSamples, Rays::None, sampler)) {
         const double u = std::atan2(s.direction.z, s.direction.x) / (2.0 * kPi) + 0.5;
         const double v = std::acos(s.direction.y) / kPi;
         counts[binOf(std::clamp(int(u * 16 * kParts), 0, 16 * kParts - 1),

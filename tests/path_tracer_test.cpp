@@ -71,11 +71,16 @@ TEST_CASE("a cut path keeps the light of its edges and no more") {
     const Scene scene = furnace(glm::vec3(0.5f), glm::vec3(0.5f));
     test::GpuRenderer renderer(device(), scene);
     const Camera camera = reference::lookAt(glm::vec3(0.0f), {0.0f, 0.0f, 1.0f}, 1.2f);
-    for (const uint32_t bounces : {0u, 1u, 2u, 5u}) {
-        const FilmImage film = renderer.render(camera, picture(32, bounces), 128);
-        const double expected = 1.0 - std::pow(0.5, bounces + 2.0);
-        CHECK(std::abs(meanLuminance(film) / expected - 1.0) < 0.005);
-    }
+    for (const uint32_t sampler : {gpu::kSamplerRandom, gpu::kSamplerSobol})
+        for (uint32_t bounces = 0; bounces <= 10; ++bounces) {
+            PathTracerOptions options = picture(32, bounces);
+            options.sampler = sampler;
+            const FilmImage film = renderer.render(camera, options, 64);
+            const double expected = 1.0 - std::pow(0.5, bounces + 2.0);
+            INFO("sampler " << sampler << ", max bounces " << bounces);
+            CHECK(std::abs(meanLuminance(film) / expected - 1.0) < 0.005);
+            CHECK_FALSE(std::abs(1.02 * meanLuminance(film) / expected - 1.0) < 0.005);
+        }
 }
 
 TEST_CASE("the small box agrees with the CPU reference") {

@@ -12,6 +12,7 @@
 #include <catch2/catch_test_macros.hpp>
 #include <cmath>
 #include <cstdlib>
+#include <sstream>
 #include <sys/wait.h>
 
 using namespace irradia;
@@ -94,6 +95,30 @@ TEST_CASE("a mean counts every picture alike, in half floats, and says what it i
     CHECK(mean.attributes.at("irradia.seed") == "20");
     Imf::RgbaInputFile file((folder / "mean.exr").c_str());
     CHECK(file.header().channels().findChannel("R")->type == Imf::HALF);
+}
+
+TEST_CASE("noise is half of the squared difference, relative, with and without the largest hundredth") {
+    const TemporaryFolder folder;
+    const auto write = [&](const std::string& name, float each, float last) {
+        LayeredImage image;
+        image.width = 100;
+        image.height = 1;
+        std::vector<glm::vec3> pixels(100, glm::vec3(each));
+        pixels[3] = glm::vec3(last);
+        image.setRgb("", pixels);
+        writeExr(folder / name, image);
+    };
+    write("a.exr", 1.0f, 9.0f);
+    write("b.exr", 0.5f, 1.0f);
+    write("mean.exr", 0.7f, 0.7f);
+    REQUIRE(run(folder, "pictures noise a.exr b.exr mean.exr") == 0);
+    const std::vector<uint8_t> bytes = folder.read("out.txt");
+    std::istringstream text(std::string(bytes.begin(), bytes.end()));
+    double most = 0.0, all = 0.0;
+    text >> most >> all;
+    CHECK(std::abs(most - 0.25) < 1e-5); // 0.25 / 2 / (0.49 + 0.01)
+    CHECK(std::abs(all - (99 * 0.25 + 64.0) / 100) < 1e-5);
+    checkRefused(folder, "noise a.exr b.exr", 64, "pictures");
 }
 
 TEST_CASE("pictures that do not fit, names that would lose something and unknown words are refused") {

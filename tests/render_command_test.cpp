@@ -123,6 +123,8 @@ TEST_CASE("stats say what a frame cost") {
     CHECK(std::filesystem::file_size(folder / "o.png") > 100);
     CHECK(stats["options"]["method"] == "pt");
     CHECK(stats["options"]["max_bounces"] == 16);
+    CHECK(stats["options"]["sampler"] == "sobol");
+    CHECK(readExr(folder / "o.exr").attributes.at("irradia.sampler") == "sobol");
     CHECK(stats["ended_by"] == "frames");
 }
 

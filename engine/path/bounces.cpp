@@ -17,7 +17,7 @@ Bounces::Bounces(Device& device, const GpuScene& scene, const PathTracerOptions&
     , begin_(device, kernels::begin_bounce)
     , intersectClosest_(device, kernels::intersect_closest)
     , intersectShadow_(device, kernels::intersect_shadow) {
-    const KernelOptions fit = fittedTo(scene.needs, options.view);
+    const KernelOptions fit = fittedTo(scene.needs, options);
     handleEscapedRays_ = Kernel(device, *options.kernels.handleEscapedRays, fit);
     handleEmissiveHits_ = Kernel(device, *options.kernels.handleEmissiveHits, fit);
     scatter_ = Kernel(device, *options.kernels.scatter, fit);

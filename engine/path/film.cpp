@@ -50,8 +50,8 @@ Film::Film(Device& device, const GpuScene& scene, const PathTracerOptions& optio
     : device_(device)
     , scene_(scene)
     , options_(options)
-    , update_(device, kernels::update_film, fittedTo(scene.needs, options.view))
-    , recordLayers_(device, kernels::record_layers, fittedTo(scene.needs, options.view))
+    , update_(device, kernels::update_film, fittedTo(scene.needs, options))
+    , recordLayers_(device, kernels::record_layers, fittedTo(scene.needs, options))
     , pixelsOfPart_(partOf(device.isCpu(), options)) {
     for (const Device::PlannedBuffer& buffer : planned(device.isCpu(), options)) {
         Buffer made(device, buffer.name, buffer.bytes);

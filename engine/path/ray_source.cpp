@@ -6,8 +6,8 @@
 
 namespace irradia {
 
-CameraRays::CameraRays(Device& device)
-    : kernel_(device, kernels::generate_camera_rays) {}
+CameraRays::CameraRays(Device& device, const GpuScene& scene, const PathTracerOptions& options)
+    : kernel_(device, kernels::generate_camera_rays, fittedTo(scene.needs, options)) {}
 
 void CameraRays::generate(FrameGraph& graph, const WaveBuffers& buffers, const Buffer& constants,
                           const gpu::WaveParams& wave) const {
@@ -20,10 +20,10 @@ void CameraRays::generate(FrameGraph& graph, const WaveBuffers& buffers, const B
         .dispatch(wave.paths);
 }
 
-SurfaceRays::SurfaceRays(Device& device, const GpuScene& scene)
+SurfaceRays::SurfaceRays(Device& device, const GpuScene& scene, const PathTracerOptions& options)
     : scene_(scene) {
     if (scene.areaTable)
-        kernel_ = Kernel(device, kernels::generate_surface_rays, fittedTo(scene.needs, gpu::kViewPicture));
+        kernel_ = Kernel(device, kernels::generate_surface_rays, fittedTo(scene.needs, options));
 }
 
 void SurfaceRays::generate(FrameGraph& graph, const WaveBuffers& buffers, const Buffer& constants,

@@ -10,7 +10,7 @@ namespace irradia {
 
 class CameraRays {
 public:
-    explicit CameraRays(Device& device);
+    CameraRays(Device& device, const GpuScene& scene, const PathTracerOptions& options);
     // Into the first queue; the paths' radiance begins at 0.
     void generate(FrameGraph& graph, const WaveBuffers& buffers, const Buffer& constants,
                   const gpu::WaveParams& wave) const;
@@ -23,7 +23,7 @@ private:
 // away.
 class SurfaceRays {
 public:
-    SurfaceRays(Device& device, const GpuScene& scene);
+    SurfaceRays(Device& device, const GpuScene& scene, const PathTracerOptions& options);
     // Into the first queue and the hits. Throws Error(Internal) where the scene has no area table.
     void generate(FrameGraph& graph, const WaveBuffers& buffers, const Buffer& constants,
                   const gpu::WaveParams& wave, float distance) const;

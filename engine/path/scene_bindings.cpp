@@ -1,18 +1,17 @@
 #include "engine/path/scene_bindings.h"
 
-#include "shared/path.h"
-
 namespace irradia {
 
-KernelOptions fittedTo(const SceneNeeds& needs, uint32_t view) {
-    KernelOptions options;
-    options.constants = {{gpu::kConstantEnvironment, needs.environment},
-                         {gpu::kConstantEmitters, needs.emitters},
-                         {gpu::kConstantTextures, needs.textures},
-                         {gpu::kConstantSpecular, needs.specular},
-                         {gpu::kConstantView, view},
-                         {gpu::kConstantLightTree, needs.lightTree}};
-    return options;
+KernelOptions fittedTo(const SceneNeeds& needs, const PathTracerOptions& options) {
+    KernelOptions fitted;
+    fitted.constants = {{gpu::kConstantEnvironment, needs.environment},
+                        {gpu::kConstantEmitters, needs.emitters},
+                        {gpu::kConstantTextures, needs.textures},
+                        {gpu::kConstantSpecular, needs.specular},
+                        {gpu::kConstantView, options.view},
+                        {gpu::kConstantLightTree, needs.lightTree},
+                        {gpu::kConstantSampler, options.sampler}};
+    return fitted;
 }
 
 Pass& readSurfaces(Pass& pass, const GpuScene& scene) {

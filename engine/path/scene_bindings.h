@@ -2,12 +2,13 @@
 #pragma once
 
 #include "engine/graph/frame_graph.h"
+#include "engine/path/path_tracer_options.h"
 #include "engine/scene/gpu_scene.h"
 
 namespace irradia {
 
-// Constants of every kernel that includes path/needs.glsl. `view`: gpu::kViewPicture, ...
-KernelOptions fittedTo(const SceneNeeds& needs, uint32_t view);
+// Constants of every kernel that includes path/needs.glsl.
+KernelOptions fittedTo(const SceneNeeds& needs, const PathTracerOptions& options);
 
 // What path/scene.glsl reads, in its order.
 Pass& readSurfaces(Pass& pass, const GpuScene& scene);

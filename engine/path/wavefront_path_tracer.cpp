@@ -16,8 +16,8 @@ WavefrontPathTracer::WavefrontPathTracer(Device& device, const GpuScene& scene,
     , waveSize_(WaveBuffers::largestWave(device.isCpu(), options))
     , buffers_(device, options)
     , constants_(device, "frame constants", sizeof(FrameUniforms))
-    , cameraRays_(device)
-    , surfaceRays_(device, scene)
+    , cameraRays_(device, scene, options)
+    , surfaceRays_(device, scene, options)
     , bounces_(device, scene, options, buffers_, constants_)
     , film_(device, scene, options) {}
 

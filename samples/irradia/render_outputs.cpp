@@ -64,6 +64,7 @@ void describe(LayeredImage& image, RenderSession& session, uint32_t frames, cons
     a["irradia.sceneHash"] = fmt::format("{:016x}", session.scene().contentHash);
     a["irradia.method"] = request.method;
     a["irradia.seed"] = std::to_string(request.seed);
+    a["irradia.sampler"] = request.sampler;
     a["irradia.frames"] = fmt::format("{}-{}", run.end - frames, run.end);
     a["irradia.warmup"] = fmt::format("{} of {}", run.warmup, plan.warmup);
     a["irradia.endedBy"] = run.endedBy;
@@ -90,6 +91,7 @@ nlohmann::ordered_json optionsOf(const RenderRequest& request, const FramePlan& 
                                    {"spp", request.samplesPerFrame},
                                    {"max_bounces", request.maxBounces},
                                    {"seed", request.seed},
+                                   {"sampler", request.sampler},
                                    {"frames", framesText(plan)},
                                    {"time", plan.seconds}, // null: any
                                    {"warmup", plan.warmup},

@@ -64,6 +64,13 @@ void addRequestOptions(CLI::App& command, RenderRequest& request) {
     addWhole(command, "--seed", request.seed, "Of the random numbers", 0, UINT32_MAX)
         ->group("Method")
         ->capture_default_str();
+    command
+        .add_option("--sampler", request.sampler,
+                    "Numbers of a pixel's samples: sobol (spread evenly, Owen-scrambled) or random "
+                    "(independent)")
+        ->type_name("NAME")
+        ->group("Method")
+        ->capture_default_str();
     command.add_option("--device", request.device.select, "Index, name, cpu or gpu")->group("Device");
     command.add_flag("--validation", request.device.validation, "Vulkan's validation layers")
         ->group("Device");

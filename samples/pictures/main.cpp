@@ -1,8 +1,10 @@
-// pictures: puts EXR pictures into one, side by side for the eye or as their mean for a reference.
+// pictures: puts EXR pictures into one, side by side for the eye or as their mean for a reference; and tells
+// how much two differ.
 #include "samples/pictures/pictures.h"
 #include "samples/support/numbers.h"
 #include "samples/support/outputs.h"
 #include "samples/support/program.h"
+#include "samples/support/standard_streams.h"
 
 namespace irradia {
 namespace {
@@ -55,6 +57,20 @@ void addMean(CLI::App& program, Request& request) {
     });
 }
 
+void addNoise(CLI::App& program, Request& request) {
+    CLI::App* verb = program.add_subcommand(
+        "noise", "Variance of two pictures that differ in their seed alone, relative to a third: without the "
+                 "largest hundredth of the pixels, and of all");
+    verb->add_option("pictures", request.pictures, "Two EXR files and what they show, all of one size")
+        ->required()
+        ->expected(3);
+    verb->callback([&request] {
+        const std::vector<LayeredImage> pictures = readAll(request.pictures);
+        const Noise noise = noiseOf(pictures[0], pictures[1], pictures[2]);
+        printResult("{:.6g} {:.6g}\n", noise.most, noise.all);
+    });
+}
+
 } // namespace
 } // namespace irradia
 
@@ -66,6 +82,7 @@ int main(int argc, char** argv) {
         program.require_subcommand(1);
         addRow(program, request);
         addMean(program, request);
+        addNoise(program, request);
         program.parse(argc, argv);
     });
 }

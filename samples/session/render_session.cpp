@@ -14,6 +14,12 @@
 namespace irradia {
 namespace {
 
+uint32_t parseSampler(const std::string& text) {
+    if (text == "sobol") return gpu::kSamplerSobol;
+    if (text == "random") return gpu::kSamplerRandom;
+    fail(ExitCode::Usage, "--sampler {} is unknown; there are sobol and random", text);
+}
+
 std::vector<glm::vec3> loadReference(const View& view, const std::string& file, glm::uvec2 size) {
     if (view.isErrorSign && file.empty()) fail(ExitCode::Usage, "--view {} needs a --reference", view.name);
     if (file.empty()) return {};
@@ -110,6 +116,7 @@ MethodRequest RenderSession::methodRequest() const {
     method.paths.maxBounces = request_.maxBounces;
     method.paths.samplesPerFrame = request_.samplesPerFrame;
     method.paths.seed = request_.seed;
+    method.paths.sampler = parseSampler(request_.sampler);
     method.paths.layers = request_.surfaces;
     method.seed = request_.seed;
     method.options = request_.methodOptions;

@@ -23,8 +23,9 @@ struct RenderRequest {
     uint32_t samplesPerFrame = 1;
     uint32_t maxBounces = 16;
     uint32_t seed = 1;
-    std::string view;      // empty = the picture
-    std::string reference; // EXR that the view error-sign compares with
+    std::string sampler = "sobol"; // of the paths' numbers: sobol or random
+    std::string view;              // empty = the picture
+    std::string reference;         // EXR that the view error-sign compares with
     std::string camera;
     std::string environment;
     std::string changes; // JSON of scripted_changes.h

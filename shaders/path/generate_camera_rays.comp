@@ -2,7 +2,6 @@
 #extension GL_GOOGLE_include_directive : require
 // One camera ray per path of the wave: pinhole or orthographic, box pixel filter.
 #include "lib/kernel.glsl"
-#include "lib/rng.glsl"
 #include "path/frame.glsl"
 #include "shared/queue.h"
 
@@ -11,6 +10,7 @@ RECORDS_WRITE(1, rays);
 layout(set = 0, binding = 2, std430) writeonly buffer Radiance { vec4 radiance[]; };
 COUNTERS(3, counters);
 layout(push_constant) uniform Push { WaveParams params; };
+#include "path/sampler.glsl"
 #include "path/wave.glsl"
 
 void main() {
@@ -21,7 +21,7 @@ void main() {
     uint seen = pixel < kFirstTrainingPixel ? pixel : (pixel - kFirstTrainingPixel) % (frame.width * frame.height);
     uint y = seen / frame.width;
     uint x = seen - y * frame.width;
-    vec4 u = unitFloats(randomBits(pixel, sampleOf(path), kCameraBlock, frame.seed));
+    vec4 u = unitFloats(sampleBits(pixel, sampleOf(path), kCameraBlock, frame.seed));
     vec2 ndc = vec2(2.0 * (float(x) + u.x) / float(frame.width) - 1.0, 1.0 - 2.0 * (float(y) + u.y) / float(frame.height));
     vec3 across = ndc.x * camera.right.xyz + ndc.y * camera.up.xyz;
     bool parallel = camera.position.w != 0.0;

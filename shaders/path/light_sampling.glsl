@@ -6,6 +6,7 @@
 #include "lib/rng.glsl"
 #include "path/lights/environment.glsl"
 #include "path/lights/triangles.glsl"
+#include "path/sampler.glsl"
 
 struct LightSample {
     vec3 direction; // unit, towards the light
@@ -21,7 +22,7 @@ LightSample sampleEnvironment(uvec4 random) {
     uint count = frame.environmentWidth * frame.environmentHeight;
     uint texel = uniformIndex(random.x, count);
     uvec4 entry = loadRecord(environmentAlias, texel);
-    texel = unitFloat(random.y) < uintBitsToFloat(entry.x) ? texel : entry.y;
+    texel = unitFloat(aliasBits(random, count)) < uintBitsToFloat(entry.x) ? texel : entry.y;
     uint row = texel / frame.environmentWidth;
     uint column = texel - row * frame.environmentWidth;
     vec2 uv = (vec2(column, row) + vec2(unitFloat(random.z), unitFloat(random.w))) /

@@ -9,5 +9,6 @@ layout(constant_id = 12) const uint kTextureMask = 63u;
 layout(constant_id = 13) const bool kHasSpecular = true;
 layout(constant_id = 14) const uint kView = kViewPicture;
 layout(constant_id = 15) const bool kHasLightTree = false;
+layout(constant_id = 16) const uint kSampler = kSamplerRandom;
 
 #endif

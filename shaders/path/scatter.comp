@@ -24,6 +24,7 @@ RECORDS_WRITE(13, nextRays);
 RECORDS_WRITE(14, shadowRays);
 layout(push_constant) uniform Push { WaveParams params; };
 #include "path/light_sampling.glsl"
+#include "path/sampler.glsl"
 #include "path/reflectance.glsl"
 #include "path/surface.glsl"
 #include "path/wave.glsl"
@@ -81,11 +82,11 @@ void main() {
 
     uint normalCode = encodeOctahedral(s.shadingNormal); // as a ray's emissive hit will find it
     if (kHasEmitters || kHasEnvironment) {
+        uvec4 random = lightBits(pixel, sampleIndex, params.depth, frame.seed);
         float choice = kHasEmitters && kHasEnvironment
-                           ? unitFloat(randomBits(pixel, sampleIndex, lightChoiceBlock(params.depth), frame.seed).x)
+                           ? unitFloat(lightChoiceBits(random, pixel, sampleIndex, params.depth, frame.seed))
                            : 0.0;
-        LightSample light = sampleLight(
-            Receiver(origin, decodeOctahedral(normalCode)), randomBits(pixel, sampleIndex, lightBlock(params.depth), frame.seed), choice);
+        LightSample light = sampleLight(Receiver(origin, decodeOctahedral(normalCode)), random, choice);
         vec3 l = toLocal(local, light.direction);
         float mend = min(mendView, diffuseMend(s.bsdf, reflectanceAt(l.z, s.roughness)));
         BsdfValue value = evaluateBsdf(s.bsdf, v, l, mend, pSpecular, kHasSpecular);
@@ -99,7 +100,7 @@ void main() {
         pushShadowRay(alive && counts, origin, light.tMax, light.direction, path, contribution);
     }
 
-    vec4 u = unitFloats(randomBits(pixel, sampleIndex, bsdfBlock(params.depth), frame.seed));
+    vec4 u = unitFloats(bsdfBits(pixel, sampleIndex, params.depth, frame.seed));
     vec3 l = sampleBsdf(s.bsdf, v, u.xyz, pSpecular, kHasSpecular);
     vec3 direction = toWorld(local, l);
     float mend = min(mendView, diffuseMend(s.bsdf, reflectanceAt(l.z, s.roughness)));

@@ -11,6 +11,10 @@ SHARED_CONST uint kConstantTextures = 12u;    // mask of kBaseColorTexture, ...
 SHARED_CONST uint kConstantSpecular = 13u;    // some material has a specular lobe
 SHARED_CONST uint kConstantView = 14u;        // what is shown: kViewPicture, ...
 SHARED_CONST uint kConstantLightTree = 15u;   // there are enough emissive triangles for a hierarchy
+SHARED_CONST uint kConstantSampler = 16u;     // where a path's numbers come from: kSamplerRandom, ... (path/sampler.glsl)
+
+SHARED_CONST uint kSamplerRandom = 0u; // independent numbers
+SHARED_CONST uint kSamplerSobol = 1u;  // of a pixel's samples, Owen-scrambled Sobol' points: spread evenly
 
 // What the film shows: the picture, or what each path counts in the alpha of its radiance. Vertices of a path are those at which
 // it scatters or asks the cache; the last ray of all only meets emission, and has none.

@@ -35,6 +35,18 @@ struct CountParams {
     uint count;
 };
 
+// Numbers of samples of consecutive pixels: value i is of pixel first.x + i / samples, sample first.y + i %
+// samples.
+struct SamplerHarnessParams {
+    uvec4 first; // pixel, sample, block (or depth), seed
+    uint samples;
+    uint count;
+    uint which; // kSamplerBlock, ...
+};
+SHARED_CONST uint kSamplerBlock = 0u; // of block first.z
+SHARED_CONST uint kSamplerBsdf = 1u;  // of the BSDF sample at depth first.z
+SHARED_CONST uint kSamplerLight = 2u;
+
 struct PermuteParams {
     uint count;
     uint key;

@@ -20,7 +20,7 @@ LightChoice chooseTriangleLight(Receiver receiver, uvec4 random) {
     if (kHasLightTree) return chooseLight(receiver, random.x);
     uint light = uniformIndex(random.x, frame.lightCount);
     uvec4 entry = loadRecord(lights, light);
-    light = unitFloat(random.y) < uintBitsToFloat(entry.x) ? light : entry.y;
+    light = unitFloat(aliasBits(random, frame.lightCount)) < uintBitsToFloat(entry.x) ? light : entry.y;
     return LightChoice(light, lightChance(light, receiver));
 }
 

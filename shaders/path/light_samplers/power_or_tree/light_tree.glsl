@@ -6,6 +6,7 @@
 #include "lib/math.glsl"
 #include "lib/rng.glsl"
 #include "path/light_choice.glsl"
+#include "path/sampler.glsl"
 #include "shared/scene.h"
 
 struct LightBranch {
@@ -57,10 +58,13 @@ uint rootChild() { return loadRecord(lights, frame.lightCount + 1u).w; }
 LightChoice chooseLight(Receiver receiver, uint random) {
     uint child = rootChild();
     float chance = 1.0;
+    float u = unitFloat(random);
     while ((child & kLightLeaf) == 0u) {
         LightPair pair = lightPair(child, receiver);
         random = pcg(random);
-        bool first = unitFloat(random) < pair.chanceOfFirst;
+        float fresh = unitFloat(random);
+        bool first = (kSampler == kSamplerRandom ? fresh : u) < pair.chanceOfFirst;
+        if (kSampler != kSamplerRandom) u = leftOf(u, pair.chanceOfFirst, first, fresh);
         chance *= first ? pair.chanceOfFirst : 1.0 - pair.chanceOfFirst;
         child = first ? pair.first : pair.second;
         if (!pair.reaches) return LightChoice(0u, 0.0);

@@ -47,8 +47,8 @@ TEST_CASE("presets that inherit are what they were in full") {
     expected.unbiasedShare = 0.5f;
     expected.minRecords = 2048;
     expected.steps = 2;
-    expected.model.encoding[0].levels = 4;
-    expected.model.encoding[0].perLevelScale = 2;
+    expected.model.encoding[0].keys["n_levels"] = 4;
+    expected.model.encoding[0].keys["per_level_scale"] = 2;
     expected.model.network.width = 16;
     expected.model.optimizer.learningRate = expected.model.optimizer.gridLearningRate = 0.01;
     CHECK(fast == expected);
@@ -86,7 +86,7 @@ TEST_CASE("what is given changes the base, and nothing else") {
         "optimizer": {"otype": "Adam", "learning_rate": 0.1, "beta1": 0.5, "beta2": 0.5, "epsilon": 1e-8,
                       "l2_reg": 0}}})");
     REQUIRE(replaced.model.encoding.size() == 1);
-    CHECK(replaced.model.encoding[0].bins == 8);
+    CHECK(replaced.model.encoding[0].whole("n_bins") == 8);
     CHECK(replaced.model.loss == LossConfig{});
     CHECK(replaced.model.optimizer.emaDecay == 0);
     CHECK(replaced.model.network == nrcPreset("balanced").model.network);

@@ -24,9 +24,8 @@ PathTap CacheTap::listen(WavefrontPathTracer& tracer, gpu::CacheRule rule, const
     tap.light = {{tracer.pathStates(), true, true},
                  {ofPaths(b.trainingPaths, gpu::kTrainingPathBytes, first, paths), true, true},
                  {ofPaths(b.trainingVertices, gpu::kVertexBytes, first, paths), true, true}};
-    tap.vertex = {{b.queries, false, true},         {b.queryWeights, false, true},
-                  {b.trainingQueries, false, true}, {b.counters, true, true},
-                  {tracer.radiance(), true, true},  {rule_, true, false}};
+    tap.vertex = {{b.queries, false, true}, {b.queryWeights, false, true},   {b.trainingQueries, false, true},
+                  {b.counters, true, true}, {tracer.radiance(), true, true}, {rule_, true, false}};
     if (rule.tilesX > 0) tap.lastDepth = rule.lastDepth;
     return tap;
 }

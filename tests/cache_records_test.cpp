@@ -516,7 +516,7 @@ namespace {
 // What is added to the radiance of a path for each of these queries, of weight 1.
 std::vector<glm::vec4> answersOf(Device& device, NeuralCache& cache, const std::vector<Values>& queries) {
     Quads weights;
-    for (uint32_t i = 0; i < queries.size(); ++i) weights.push_back(record(Vec3(1.0), i));
+    for (uint32_t i = 0; i < queries.size(); ++i) weights.push_back(quad(Vec3(1.0), i));
     const CacheBuffers buffers = cache.buffers();
     upload<glm::uvec4>(device, *buffers.queries.buffer, packInputs(queries));
     upload<glm::uvec4>(device, *buffers.queryWeights.buffer, weights);

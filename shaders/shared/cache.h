@@ -36,7 +36,7 @@ SHARED_CONST uint kSkippedRecords = 3u;      // of the frame: beyond the records
 SHARED_CONST uint kClampedPredictions = 4u;  // since the start: not finite
 SHARED_CONST uint kCacheCounters = 8u;
 
-// Query, one row of inputs (shared/network.h's order of quads), and beside it one record: weight rgb of the prediction,
+// Query, one row of inputs (shared/network.h's order of quads), and beside it one quad: weight rgb of the prediction,
 // path index to whose radiance it is added.
 
 // Where paths end. A vertex outside the box never asks the cache.
@@ -58,7 +58,7 @@ struct CacheRule {
 };
 SHARED_CONST uint kNoDepth = 0xffffffffu;
 
-// PathState, one record a path of the wave: a0 (float), square root of the area spread so far (float), training path of those
+// PathState, one quad a path of the wave: a0 (float), square root of the area spread so far (float), training path of those
 // bound + 1 (0 = none), flags.
 SHARED_CONST uint kPathEnded = 1u;    // for rendering: what follows only trains
 SHARED_CONST uint kPathAsked = 2u;    // has had its query, and goes on for the residual

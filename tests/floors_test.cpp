@@ -206,3 +206,28 @@ TEST_CASE("what the floors allow is not reported") {
     isAllowed("tests/reference/planted.cpp", "#include \"engine/scene/scene.h\"\n#include <vector>");
     isAllowed("engine/gpu/device.cpp", "#include <vulkan/vulkan.h>");
 }
+
+// ---- sizes ----
+
+namespace {
+
+constexpr int kMostLines = 250; // a file is one idea
+
+std::vector<std::string> longFiles(int most) {
+    std::vector<std::string> found;
+    for (const auto& [path, includes] : projectIncludes()) {
+        if (!path.starts_with("engine/") && !path.starts_with("nrc/") && !path.starts_with("shaders/"))
+            continue;
+        std::ifstream text(fs::path(IRRADIA_SOURCE_DIR) / path);
+        const auto lines = std::count(std::istreambuf_iterator<char>(text), {}, '\n');
+        if (lines > most) found.push_back(fmt::format("{} has {} lines", path, lines));
+    }
+    return found;
+}
+
+} // namespace
+
+TEST_CASE("files of the engine, of learning and of shaders are short") {
+    CHECK(fmt::format("{}", fmt::join(longFiles(kMostLines), "\n")) == "");
+    CHECK_FALSE(longFiles(100).empty()); // of which there are: the test does count
+}

@@ -23,7 +23,7 @@ struct GpuScene {
     SceneNeeds needs;
     glm::dvec3 origin{0.0}; // Scene::origin
     uint32_t triangles = 0;
-    uint32_t bvhRoot = 0; // record index
+    uint32_t bvhRoot = 0; // its item (shared/bvh.h)
     uint32_t lightCount = 0;
     uint32_t environmentWidth = 1;
     uint32_t environmentHeight = 1;

@@ -1,11 +1,10 @@
 // From what the network says to radiance, and back. Bindings: `cacheState`, and `counters` of the cache, writable.
 #include "lib/math.glsl"
 
-// Reflectance alpha + beta of a row of inputs (shared/cache.h).
-#define REFLECTANCE(rows, row)                                                                                \
-    reflectanceOf(uintBitsToFloat(loadRecord(rows, quadIndex(row, 2u, kCacheInputQuads))),                    \
-                  uintBitsToFloat(loadRecord(rows, quadIndex(row, 3u, kCacheInputQuads))))
-vec3 reflectanceOf(vec4 quad2, vec4 quad3) { return quad2.rgb + vec3(quad2.a, quad3.rg); }
+// Reflectance alpha + beta of a row of inputs (shared/cache_inputs.h).
+#define REFLECTANCE(rows, row)                                                                                   \
+    cacheReflectance(uintBitsToFloat(loadRecord(rows, quadIndex(row, 2u, kCacheInputQuads))),                    \
+                     uintBitsToFloat(loadRecord(rows, quadIndex(row, 3u, kCacheInputQuads))))
 
 // Below it a reflectance divides nothing: what such a channel scatters is not learned.
 const float kMinReflectance = 1e-3;

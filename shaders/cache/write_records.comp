@@ -34,7 +34,7 @@ void main() {
         quads[q] = trainingVertices[at + q];
         storeRecord(inputs, quadIndex(record, q, kCacheInputQuads), floatBitsToUint(quads[q]));
     }
-    vec3 factor = params.factorise != 0u ? reflectanceOf(quads[2], quads[3]) : vec3(1.0);
+    vec3 factor = params.factorise != 0u ? cacheReflectance(quads[2], quads[3]) : vec3(1.0);
     vec3 target = toTarget(trainingVertices[at + kGathered].rgb, factor);
     storeRecord(targets, record, floatBitsToUint(vec4(target, 0.0)));
 }

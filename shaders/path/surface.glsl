@@ -10,7 +10,6 @@ struct Surface {
     float error; // rays leave the position along the normal by this length, so that they do not hit their own surface
     vec3 geometricNormal; // on the side of the viewer
     vec3 shadingNormal;   // likewise, and never facing away from the viewer
-    vec3 baseColor;
     Bsdf bsdf;
     float roughness;
 };
@@ -81,7 +80,6 @@ Surface loadSurface(uint primitive, vec2 b, vec3 view) {
     s.error = pointError(ng, tri.p0, reach, s.position) + heightError(tri.e1, tri.e2, doubleArea, reach);
     s.geometricNormal = ng;
     s.shadingNormal = ns;
-    s.baseColor = base;
     s.roughness = clamp(roughness, 0.0, 1.0);
     s.bsdf = makeBsdf(base, clamp(metallic, 0.0, 1.0), s.roughness, f0, specular);
     return s;

@@ -73,7 +73,7 @@ SHARED_CONST uint kTraceArguments = 0u; // offsets in uints
 SHARED_CONST uint kItemArguments = 4u;
 SHARED_CONST uint kDispatchArguments = 8u; // size in uints
 
-// The film, per pixel: FilmPixel in floats. Welford's running mean and sum of squared deviations over frames. A pass binds the
+// The film, per pixel: Welford's running mean and sum of squared deviations over frames. A pass binds the
 // film and the layers of its wave's pixels alone.
 SHARED_CONST uint kFilmVectors = 2u;    // vec4: mean rgb, frames; M2 rgb, unused
 SHARED_CONST uint kLayerVectors = 3u;   // vec4 sums: albedo rgb, hits; normal xyz, z; position xyz, unused

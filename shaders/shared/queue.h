@@ -1,20 +1,20 @@
-// The queues of the wavefront: work items as records, their counters and indirect arguments.
+// The queues of the wavefront: work items as quads, their counters and indirect arguments.
 #ifndef IRRADIA_SHARED_QUEUE_H
 #define IRRADIA_SHARED_QUEUE_H
 #include "shared/types.h"
 SHARED_BEGIN
 
-// RayQueue item, 3 records:
-//   0: origin xyz, path index (uint)          path index = slot of the path's PixelSampleState in the wave
+// RayQueue item, 3 quads:
+//   0: origin xyz, path index (uint)          path index = its number in the wave (path/wave.glsl)
 //   1: direction xyz (unit), pdf of the BSDF sample that made it (solid angle; 0 for camera rays)
 //   2: throughput beta rgb, shading normal of the vertex it leaves (octahedral; of camera rays 0)
 SHARED_CONST uint kRayRecords = 3u;
 
-// Hit, 1 record per RayQueue slot: t (float), primitive (index into Scene::triangles, kNoPrimitive = escaped),
+// Hit, 1 quad per RayQueue slot: t (float), primitive (index of a triangle, kNoPrimitive = escaped),
 // barycentrics u, v (floats): the point is p0 + u e1 + v e2.
 SHARED_CONST uint kNoPrimitive = 0xffffffffu;
 
-// ShadowRayQueue item, 3 records:
+// ShadowRayQueue item, 3 quads:
 //   0: origin xyz, t max (float)
 //   1: direction xyz (unit), path index (uint)
 //   2: contribution rgb if unoccluded, unused

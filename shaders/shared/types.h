@@ -1,5 +1,5 @@
 // Makes GLSL's type names available to C++, so that every layout in shaders/shared is written once.
-// A record is one uvec4 (16 bytes): floats are stored by their bits, integers as they are.
+// A quad is one uvec4 (16 bytes): floats are stored by their bits, integers as they are.
 #ifndef IRRADIA_SHARED_TYPES_H
 #define IRRADIA_SHARED_TYPES_H
 
@@ -21,11 +21,13 @@ using glm::vec4;
 #define SHARED_END }
 #define SHARED_CONST inline constexpr
 #define SHARED_FUNCTION constexpr
+#define SHARED_INLINE inline
 #else
 #define SHARED_BEGIN
 #define SHARED_END
 #define SHARED_CONST const
 #define SHARED_FUNCTION
+#define SHARED_INLINE
 #endif
 
 #endif

@@ -83,20 +83,10 @@ vec2 sphericalCoordinates(vec3 d) {
     return vec2(acos(clamp(d.z, -1.0, 1.0)) * kInvPi, atan(d.y, d.x) * (0.5 * kInvPi) + 0.5);
 }
 
-struct CacheInputs {
-    vec4 quads[kCacheInputQuads];
-};
-
 CacheInputs inputsOf(Surface s, vec3 view) {
     vec3 position = (s.position - rule.boxLow.xyz) * rule.boxLow.w;
-    vec2 direction = sphericalCoordinates(view);
-    vec2 normal = sphericalCoordinates(s.shadingNormal);
-    CacheInputs i;
-    i.quads[0] = vec4(position, direction.x);
-    i.quads[1] = vec4(direction.y, normal, 1.0 - exp(-s.roughness));
-    i.quads[2] = vec4(s.bsdf.diffuse, s.bsdf.specularF0.r);
-    i.quads[3] = vec4(s.bsdf.specularF0.gb, 0.0, 0.0);
-    return i;
+    return packCacheInputs(position, sphericalCoordinates(view), sphericalCoordinates(s.shadingNormal), 1.0 - exp(-s.roughness),
+                           s.bsdf.diffuse, s.bsdf.specularF0);
 }
 
 bool isInBox(vec3 p) { return all(greaterThanEqual(p, rule.boxLow.xyz)) && all(lessThanEqual(p, rule.boxHigh.xyz)); }

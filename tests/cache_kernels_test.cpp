@@ -26,7 +26,7 @@ std::vector<Values> manyInputs(Random& random, size_t count) {
 
 Quads predictionRecords(const std::vector<Vec3>& predictions) {
     Quads records(std::max<size_t>(predictions.size(), 1));
-    for (size_t i = 0; i < predictions.size(); ++i) records[i] = record(predictions[i]);
+    for (size_t i = 0; i < predictions.size(); ++i) records[i] = quad(predictions[i]);
     return records;
 }
 
@@ -73,10 +73,10 @@ Answers resolve(RecordAccess form, const Queries& q, bool factorise, double scal
     bench.set(gpu::kQueryCounter, static_cast<uint32_t>(q.inputs.size()));
     bench.set(stateOf(scale));
     Quads weights(std::max<size_t>(q.weights.size(), 1));
-    for (size_t i = 0; i < q.weights.size(); ++i) weights[i] = record(q.weights[i], q.paths[i]);
+    for (size_t i = 0; i < q.weights.size(); ++i) weights[i] = quad(q.weights[i], q.paths[i]);
     const Buffer queries = bench.make(packInputs(q.inputs)), weightBuffer = bench.make(weights),
                  predictions = bench.make(predictionRecords(q.predictions)),
-                 radiance = bench.make(Quads(q.radiances, record(Vec3(kBefore))));
+                 radiance = bench.make(Quads(q.radiances, quad(Vec3(kBefore))));
     const Kernel& kernel = bench.kernel(kernels::resolve_queries);
     FrameGraph graph(bench.device);
     graph.pass(kernel)

@@ -191,7 +191,7 @@ Paths randomPaths() {
 Quads packVertices(const Paths& paths) {
     Quads records;
     const auto add = [&](const Vec3& v, double w) {
-        records.push_back(record(v, std::bit_cast<uint32_t>(static_cast<float>(w))));
+        records.push_back(quad(v, std::bit_cast<uint32_t>(static_cast<float>(w))));
     };
     for (const std::vector<CacheVertex>& path : paths)
         for (const CacheVertex& v : path) {
@@ -199,7 +199,7 @@ Quads packVertices(const Paths& paths) {
             add(v.view, v.pdf);
             add(v.geometricNormal, v.roughness);
             add(v.shadingNormal, double(v.isDelta ? gpu::kMinAlpha : 0.5f));
-            records.push_back(record(v.diffuse, v.goesOn));
+            records.push_back(quad(v.diffuse, v.goesOn));
             for (const Vec3& part : {v.specular, v.throughput, v.light, v.emission}) add(part, 0.0);
         }
     return records;

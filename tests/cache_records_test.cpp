@@ -3,11 +3,14 @@
 #include "kernels/cache.h"
 #include "kernels/shaders.h"
 #include "nrc/cache/neural_cache.h"
+#include "nrc/learning/model_file.h"
 #include "nrc/renderer/nrc_config.h"
 #include "shared/network.h"
 #include "tests/shaders/harness.h"
 #include "tests/support/cache_bench.h"
+#include "tests/support/expect_error.h"
 #include "tests/support/kernel_harness.h"
+#include "tests/support/temporary_folder.h"
 #include <algorithm>
 #include <bit>
 #include <catch2/catch_test_macros.hpp>
@@ -506,6 +509,60 @@ TEST_CASE("bad radiance in training vertices is dropped and counted, and everyth
     }
     CHECK(dropped >= 50);
     CHECK(dropped < records / 4);
+}
+
+namespace {
+
+// What is added to the radiance of a path for each of these queries, of weight 1.
+std::vector<glm::vec4> answersOf(Device& device, NeuralCache& cache, const std::vector<Values>& queries) {
+    Quads weights;
+    for (uint32_t i = 0; i < queries.size(); ++i) weights.push_back(quad(Vec3(1.0), i));
+    const CacheBuffers buffers = cache.buffers();
+    upload<glm::uvec4>(device, *buffers.queries.buffer, packInputs(queries));
+    upload<glm::uvec4>(device, *buffers.queryWeights.buffer, weights);
+    upload<uint32_t>(device, *buffers.counters.buffer, std::vector{static_cast<uint32_t>(queries.size())},
+                     gpu::kQueryCounter * 4);
+    const Buffer radiance(device, "radiance", queries.size() * 16);
+    FrameGraph graph(device);
+    cache.answer(graph, radiance);
+    graph.execute();
+    return download<glm::vec4>(device, radiance, queries.size());
+}
+
+} // namespace
+
+TEST_CASE("a cache that was saved and loaded predicts the same radiance, at whatever scale") {
+    Device& device = deviceWith(RecordAccess::Texel);
+    const TemporaryFolder folder;
+    const auto file = folder / "room.cache";
+    Random random(43);
+    NeuralCache cache(device, smallCache(), kRoom);
+    for (int frame = 0; frame < 4; ++frame) {
+        std::vector<TrainingPath> paths = randomPaths(random, 200);
+        for (TrainingPath& path : paths)
+            for (reference::TrainingVertex& v : path.vertices) v.gathered *= 1000.0;
+        learn(device, cache, paths);
+    }
+    REQUIRE(cache.counts().state.scale < 0.1f);
+    std::vector<Values> queries;
+    for (int i = 0; i < 100; ++i) queries.push_back(randomInputs(random));
+    const std::vector<glm::vec4> expected = answersOf(device, cache, queries);
+    cache.save(file);
+
+    NeuralCache loaded(device, smallCache(), kRoom);
+    CHECK(answersOf(device, loaded, queries) != expected); // planted: it has learned nothing
+    loaded.load(file);
+    CHECK(answersOf(device, loaded, queries) == expected);
+    CHECK(loaded.counts().state.brightness == cache.counts().state.brightness);
+    // Planted: the trainer alone, without the scale of its outputs.
+    NeuralCache unscaled(device, smallCache(), kRoom);
+    unscaled.trainer().load(ModelFile::read(file, "cache"));
+    CHECK(answersOf(device, unscaled, queries) != expected);
+
+    NeuralCacheOptions other = smallCache();
+    other.factorise = false;
+    NeuralCache whole(device, other, kRoom);
+    expectError(ExitCode::BadData, "radiance over reflectance", [&] { whole.load(file); });
 }
 
 TEST_CASE("the device has nothing to say against it") {

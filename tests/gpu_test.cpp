@@ -176,6 +176,51 @@ TEST_CASE("what waits for an execution is called after it, in order, and never w
     CHECK(device.validationMessages() == 0);
 }
 
+TEST_CASE("between submit and wait the host does other work, and the results are those of execute") {
+    Device& device = deviceWith(RecordAccess::Texel);
+    constexpr uint32_t kCount = 1000;
+    const Kernel scale(device, kernels::gpu_scale);
+    const std::vector<glm::uvec4> values = ramp(kCount);
+    const Buffer input = makeBuffer(device, "input", values);
+    const auto declare = [&](FrameGraph& graph, const Buffer& a, const Buffer& b) {
+        graph.pass(scale).read(input).write(a).push(ScaleParams{kCount, 3}).dispatch(kCount);
+        graph.cut(); // never ran: a slice each
+        graph.pass(scale).read(a).write(b).push(ScaleParams{kCount, 5}).dispatch(kCount);
+    };
+    const auto make = [&](const char* name) { return Buffer(device, name, kCount * sizeof(glm::uvec4)); };
+    const Buffer a = make("a"), b = make("b"), c = make("c"), d = make("d");
+    FrameGraph expected(device);
+    declare(expected, c, d);
+    expected.execute();
+
+    FrameGraph graph(device);
+    bool isCalled = false;
+    for (int frame = 0; frame < 3; ++frame) {
+        declare(graph, a, b);
+        graph.whenExecuted([&] { isCalled = true; });
+        isCalled = false;
+        graph.submit();
+        CHECK(!isCalled);
+        // Another graph, and transfers, while it is in flight.
+        FrameGraph other(device);
+        declare(other, c, d);
+        other.execute();
+        CHECK(download<glm::uvec4>(device, input, kCount) == values);
+        requireRefusal(ExitCode::Internal, "to be waited for first", [&] { graph.submit(); });
+        requireRefusal(ExitCode::Internal, "to be waited for first", [&] { graph.fill(a, 0); });
+        graph.wait();
+        CHECK(isCalled);
+        CHECK(download<glm::uvec4>(device, b, kCount) == download<glm::uvec4>(device, d, kCount));
+        graph.wait(); // nothing to wait for
+    }
+    {
+        FrameGraph dropped(device);
+        declare(dropped, a, b);
+        dropped.submit();
+    }
+    CHECK(device.validationMessages() == 0);
+}
+
 TEST_CASE("an indirect dispatch runs the group counts that an earlier pass wrote") {
     Device& device = deviceWith(RecordAccess::Texel);
     const Kernel count(device, kernels::gpu_count, {.workgroupSize = 32});

@@ -163,22 +163,31 @@ float Device::timestampPeriodNs() const {
     return state_->physical.timestampBits > 0 ? limits().timestampPeriod : 0.0f;
 }
 
-void Device::submitAndWait(VkCommandBuffer commands, const std::string& what, double timeoutSeconds) const {
-    State& s = *state_;
-    check(vkResetFences(s.device, 1, &s.fence), what);
+void Device::submit(VkCommandBuffer commands, VkFence fence, const std::string& what) const {
+    check(vkResetFences(state_->device, 1, &fence), what);
     VkSubmitInfo submit{VK_STRUCTURE_TYPE_SUBMIT_INFO};
     submit.commandBufferCount = 1;
     submit.pCommandBuffers = &commands;
-    VkResult result = vkQueueSubmit(s.queue, 1, &submit, s.fence);
-    if (result == VK_SUCCESS)
-        result = vkWaitForFences(s.device, 1, &s.fence, VK_TRUE, static_cast<uint64_t>(timeoutSeconds * 1e9));
+    const VkResult result = vkQueueSubmit(state_->queue, 1, &submit, fence);
+    if (result == VK_ERROR_DEVICE_LOST) fail(ExitCode::Internal, "{}: {} was lost", what, description().name);
+    check(result, what);
+}
+
+void Device::wait(VkFence fence, const std::string& what, double timeoutSeconds) const {
+    const auto nanoseconds = static_cast<uint64_t>(timeoutSeconds * 1e9);
+    const VkResult result = vkWaitForFences(state_->device, 1, &fence, VK_TRUE, nanoseconds);
     if (result == VK_TIMEOUT) {
-        s.abandoned = true;
+        state_->abandoned = true;
         fail(ExitCode::Internal, "{}: {} did not finish within {} s", what, description().name,
              timeoutSeconds);
     }
     if (result == VK_ERROR_DEVICE_LOST) fail(ExitCode::Internal, "{}: {} was lost", what, description().name);
     check(result, what);
+}
+
+void Device::submitAndWait(VkCommandBuffer commands, const std::string& what, double timeoutSeconds) const {
+    submit(commands, state_->fence, what);
+    wait(state_->fence, what, timeoutSeconds);
 }
 
 void Device::label(VkObjectType type, uint64_t object, const std::string& name) const {

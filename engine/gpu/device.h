@@ -87,9 +87,12 @@ public:
     uint32_t queueFamily() const;
     float timestampPeriodNs() const; // 0 where the queue has no timestamps
 
-    // Submits and waits on a fence; throws Error(Internal) naming `what` on a timeout or a lost device. After
-    // a timeout the device may still be at work on anything it was given: then nothing is freed any more.
+    // Submits, and waits on a fence; each throws Error(Internal) naming `what` on a timeout or a lost device.
+    // After a timeout the device may still be at work on anything it was given: then nothing is freed any
+    // more. submit() resets the fence, which is the caller's; submitAndWait() has one of its own.
     bool abandoned() const;
+    void submit(VkCommandBuffer commands, VkFence fence, const std::string& what) const;
+    void wait(VkFence fence, const std::string& what, double timeoutSeconds) const;
     void submitAndWait(VkCommandBuffer commands, const std::string& what, double timeoutSeconds = 60.0) const;
     void label(VkObjectType type, uint64_t handle, const std::string& name) const; // debug name, if available
 

@@ -27,6 +27,8 @@ FrameGraph::FrameGraph(Device& device, Profiler* profiler)
     info.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
     info.commandBufferCount = 1;
     check(vkAllocateCommandBuffers(device.handle(), &info, &s.commands), "vkAllocateCommandBuffers");
+    const VkFenceCreateInfo fence{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
+    check(vkCreateFence(device.handle(), &fence, nullptr, &s.fence), "vkCreateFence");
     s.beginLabel = reinterpret_cast<PFN_vkCmdBeginDebugUtilsLabelEXT>(
         vkGetInstanceProcAddr(device.instance(), "vkCmdBeginDebugUtilsLabelEXT"));
     s.endLabel = reinterpret_cast<PFN_vkCmdEndDebugUtilsLabelEXT>(
@@ -34,7 +36,12 @@ FrameGraph::FrameGraph(Device& device, Profiler* profiler)
 }
 
 FrameGraph::State::~State() {
-    if (!device.abandoned()) vkDestroyCommandPool(device.handle(), pool, nullptr);
+    if (device.abandoned()) return;
+    // Dropped while in flight: nothing is freed before the device is done with it.
+    const auto nanoseconds = static_cast<uint64_t>(timeoutSeconds * 1e9);
+    if (inFlight && vkWaitForFences(device.handle(), 1, &fence, VK_TRUE, nanoseconds) != VK_SUCCESS) return;
+    vkDestroyFence(device.handle(), fence, nullptr);
+    vkDestroyCommandPool(device.handle(), pool, nullptr);
 }
 
 // The passes' accesses, and the host's, which reads mapped buffers when all is done. (What it writes before
@@ -124,14 +131,19 @@ void FrameGraph::State::beginSubmission(uint32_t passCount) {
     progress.begin(passCount);
 }
 
-void FrameGraph::State::submit(size_t first, size_t end) {
+void FrameGraph::State::submit(const Slice& slice) {
     check(vkEndCommandBuffer(commands), "vkEndCommandBuffer");
+    device.submit(commands, fence, passes[slice.first].name);
+}
+
+void FrameGraph::State::finish(const Slice& slice) {
     try {
-        device.submitAndWait(commands, passes[first].name + " to " + passes[end - 1].name, timeoutSeconds);
+        device.wait(fence, passes[slice.first].name + " to " + passes[slice.end - 1].name, timeoutSeconds);
     } catch (const Error& error) {
         fail(error.code(), "{}; the last pass was {}", error.what(),
-             passes[first + progress.lastReached()].name);
+             passes[slice.first + progress.lastReached()].name);
     }
+    keepTimes(slice.first);
 }
 
 void FrameGraph::State::keepTimes(size_t first) {
@@ -154,36 +166,63 @@ void FrameGraph::State::submitAll() {
     const std::vector<size_t> starts = slices();
     const bool waits = !device.runsInOrder();
     sets.reset();
-    for (size_t slice = 0; slice < starts.size(); ++slice) {
-        const size_t first = starts[slice];
-        const size_t end = slice + 1 < starts.size() ? starts[slice + 1] : passes.size();
-        beginSubmission(static_cast<uint32_t>(end - first));
-        for (size_t i = first; i < end; ++i) {
-            if (waits && barriers[i].needed()) emitBarrier(commands, barriers[i]);
+    for (size_t i = 0; i < starts.size(); ++i) {
+        const Slice slice{starts[i], i + 1 < starts.size() ? starts[i + 1] : passes.size()};
+        if (inFlight) finish(*inFlight);
+        inFlight.reset();
+        beginSubmission(static_cast<uint32_t>(slice.end - slice.first));
+        for (size_t p = slice.first; p < slice.end; ++p) {
+            if (waits && barriers[p].needed()) emitBarrier(commands, barriers[p]);
             progress.passReached(commands);
-            record(passes[i]);
+            record(passes[p]);
             timestamps.passDone(commands);
         }
-        if (end == passes.size() && barriers.back().needed()) emitBarrier(commands, barriers.back());
-        submit(first, end);
-        keepTimes(first);
+        if (slice.end == passes.size() && barriers.back().needed()) emitBarrier(commands, barriers.back());
+        submit(slice);
+        inFlight = slice;
     }
 }
 
-void FrameGraph::execute() {
+void FrameGraph::State::requireIdle(const std::string& what) const {
+    if (isSubmitted) fail(ExitCode::Internal, "{}: what was submitted before is to be waited for first", what);
+}
+
+// Whatever happened, the next frame starts with an empty graph.
+void FrameGraph::State::clear() {
+    passes.clear();
+    whenExecuted.clear();
+    list = nextList();
+    cutNext = false;
+    isSubmitted = false;
+    inFlight.reset();
+}
+
+void FrameGraph::submit() {
     State& s = *state_;
-    // Whatever happens, the next frame starts with an empty graph.
+    s.requireIdle("submit");
+    try {
+        if (!s.passes.empty()) s.submitAll();
+    } catch (...) {
+        s.clear();
+        throw;
+    }
+    s.isSubmitted = true;
+}
+
+void FrameGraph::wait() {
+    State& s = *state_;
+    if (!s.isSubmitted) return;
     struct Clear {
         State& state;
-        ~Clear() {
-            state.passes.clear();
-            state.whenExecuted.clear();
-            state.list = State::nextList();
-            state.cutNext = false;
-        }
+        ~Clear() { state.clear(); }
     } clear{s};
-    if (!s.passes.empty()) s.submitAll();
+    if (s.inFlight) s.finish(*s.inFlight);
     for (const auto& then : s.whenExecuted) then();
+}
+
+void FrameGraph::execute() {
+    submit();
+    wait();
 }
 
 } // namespace irradia

@@ -28,6 +28,7 @@ uint64_t FrameGraph::State::nextList() {
 }
 
 PassRecord& FrameGraph::State::add(const std::string& name) {
+    requireIdle("pass " + name);
     if (!passes.empty() && passes.back().command == PassRecord::Command::None)
         fail(ExitCode::Internal, "pass {}: is declared but never dispatched", passes.back().name);
     PassRecord& pass = passes.emplace_back();

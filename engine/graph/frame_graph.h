@@ -74,8 +74,9 @@ public:
     // What passes that follow belong to: their names become "NAME/PASS"; empty = nothing.
     void section(const std::string& name);
 
-    // A place where a slice may end. execute() submits as many passes as took about 100 ms when they last ran
-    // (which changes no result) and waits for each submission, so that no watchdog sees a long one. Once so
+    // A place where a slice may end. submit() submits as many passes as took about 100 ms when they last ran
+    // (which changes no result) and waits for each submission but the last, so that no watchdog sees a long
+    // one. Once so
     // many passes are declared as one execution may hold, cut() executes them: however much a frame is, what
     // belongs to its passes stays bounded.
     void cut();
@@ -84,12 +85,18 @@ public:
     // others may keep busy while it compiles.
     void setTimeout(double seconds);
 
-    // Records, submits, waits; then the graph is empty again, whether or not it throws. Kernels and buffers
-    // must live until it returns.
-    void execute();
+    // Records and submits all passes. Of a list that is cut into slices the last alone may still be at work
+    // when it returns, so that at most about 100 ms are left for the host to use. Until wait() kernels and
+    // buffers must live, and nothing may be declared or submitted: both are refused. Other graphs, uploads and
+    // downloads may be used, and come after what was submitted.
+    void submit();
+    // Until what was submitted is done; returns at once where nothing was. Then the graph is empty again,
+    // whether or not it, or submit(), throws.
+    void wait();
+    void execute(); // submit() and wait()
 
     // For who keeps on the host what a buffer holds: `then` is called once all passes declared so far have
-    // been executed, by execute() or cut(), and never if they are not (the graph is dropped, or execute()
+    // been executed, by wait() or cut(), and never if they are not (the graph is dropped, or one of these
     // throws).
     void whenExecuted(std::function<void()> then);
     // The number of the list of passes that is being declared: each execution begins another one, and no two

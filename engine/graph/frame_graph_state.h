@@ -6,10 +6,15 @@
 #include "engine/graph/progress.h"
 #include "engine/graph/timestamps.h"
 #include <map>
+#include <optional>
 
 namespace irradia {
 
 struct FrameGraph::State {
+    struct Slice { // passes [first, end)
+        size_t first = 0, end = 0;
+    };
+
     State(Device& d, Profiler* p)
         : device(d)
         , profiler(p)
@@ -26,9 +31,12 @@ struct FrameGraph::State {
     void numberRuns();
     std::vector<size_t> slices() const;
     void submitAll();
+    void requireIdle(const std::string& what) const; // throws where a submission is to be waited for
+    void clear();
     void record(const PassRecord& pass);
     void beginSubmission(uint32_t passCount);
-    void submit(size_t first, size_t end);
+    void submit(const Slice& slice);
+    void finish(const Slice& slice); // waits for it, and keeps its times
     void keepTimes(size_t first);
 
     Device& device;
@@ -36,6 +44,8 @@ struct FrameGraph::State {
     double timeoutSeconds;
     std::vector<PassRecord> passes;
     bool cutNext = false;
+    bool isSubmitted = false;      // and not waited for
+    std::optional<Slice> inFlight; // the last slice of these passes
     uint64_t list = nextList(); // number of these passes
     std::vector<std::function<void()>> whenExecuted;
     std::string section; // of the passes to come
@@ -44,6 +54,7 @@ struct FrameGraph::State {
     Progress progress;
     VkCommandPool pool = VK_NULL_HANDLE;
     VkCommandBuffer commands = VK_NULL_HANDLE;
+    VkFence fence = VK_NULL_HANDLE;
     PFN_vkCmdBeginDebugUtilsLabelEXT beginLabel = nullptr;
     PFN_vkCmdEndDebugUtilsLabelEXT endLabel = nullptr;
     std::map<std::string, std::vector<double>, std::less<>> lastTimes; // ms of each run of a pass name

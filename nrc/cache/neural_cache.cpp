@@ -3,7 +3,9 @@
 #include "nrc/cache/cache_queries.h"
 #include "nrc/cache/radiance_scale.h"
 #include "nrc/cache/training_records.h"
+#include "nrc/learning/model_file.h"
 #include <algorithm>
+#include <fmt/format.h>
 #include <iterator>
 
 namespace irradia {
@@ -32,6 +34,13 @@ TrainerOptions trainerOptions(const NeuralCacheOptions& options, const CacheRoom
     trainer.seed = options.seed;
     trainer.touched = options.touched;
     return trainer;
+}
+
+constexpr const char *kKind = "cache", *kStateBlock = "cache state", *kMeaningBlock = "meaning";
+
+// Of the outputs.
+const char* meaningOf(const NeuralCacheOptions& options) {
+    return options.factorise ? "radiance over reflectance" : "radiance";
 }
 
 } // namespace
@@ -119,6 +128,24 @@ CacheCounts NeuralCache::counts() const {
     counts.training = s.trainer.counts();
     counts.state = s.scale.read();
     return counts;
+}
+
+void NeuralCache::save(const std::filesystem::path& file) const {
+    const State& s = *state_;
+    ModelFile model(kKind);
+    model.addText(kMeaningBlock, meaningOf(s.options));
+    model.add<gpu::CacheState>(kStateBlock, std::vector{s.scale.read()});
+    s.trainer.save(file, std::move(model));
+}
+
+void NeuralCache::load(const std::filesystem::path& file) {
+    State& s = *state_;
+    const ModelFile model = ModelFile::read(file, kKind);
+    if (const std::string meaning = model.text(kMeaningBlock); meaning != meaningOf(s.options))
+        model.refuse(fmt::format("it predicts {}, and {} is wanted", meaning, meaningOf(s.options)));
+    const gpu::CacheState state = model.values<gpu::CacheState>(kStateBlock, 1).front();
+    s.trainer.load(model);
+    s.scale.set(state);
 }
 
 std::map<std::string, std::string> NeuralCache::attributes() const {

@@ -35,6 +35,11 @@ public:
     CacheCounts counts() const override;
     std::map<std::string, std::string> attributes() const override;
 
+    // What was learned: the trainer's blocks, and what its outputs mean. load() throws Error(BadData) naming
+    // the file and what does not fit, and then changes nothing; what follows it predicts as what was saved.
+    void save(const std::filesystem::path& file) const;
+    void load(const std::filesystem::path& file);
+
     Trainer& trainer();
 
 private:

@@ -55,8 +55,8 @@ TrainingBuffers packPaths(const std::vector<reference::TrainingPath>& paths) {
             const reference::TrainingVertex& vertex = paths[p].vertices[v];
             glm::uvec4* at = &buffers.vertices[p * kPathVertices + v * gpu::kTrainingVertexVectors];
             for (uint32_t q = 0; q < gpu::kCacheInputQuads; ++q) at[q] = quadOf(vertex.inputs, q);
-            at[gpu::kGathered] = record(vertex.gathered);
-            at[gpu::kThroughput] = record(vertex.throughput);
+            at[gpu::kGathered] = quad(vertex.gathered);
+            at[gpu::kThroughput] = quad(vertex.throughput);
         }
     }
     buffers.queries = packInputs(ends);

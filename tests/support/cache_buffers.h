@@ -11,7 +11,7 @@ using Quads = std::vector<glm::uvec4>;
 
 // Rows of inputs in the order of quads, with room up to a multiple of gpu::kRowPadding.
 Quads packInputs(const std::vector<reference::Values>& rows);
-reference::Values unpackInputs(const Quads& records, size_t row);
+reference::Values unpackInputs(const Quads& quads, size_t row);
 
 struct TrainingBuffers {
     Quads paths, vertices, queries;
@@ -20,11 +20,11 @@ struct TrainingBuffers {
 TrainingBuffers packPaths(const std::vector<reference::TrainingPath>& paths);
 std::vector<reference::TrainingPath> unpackPaths(const TrainingBuffers& buffers, size_t count);
 
-// The rgb of a record.
-inline reference::Vec3 colour(const glm::uvec4& record) {
-    return reference::Vec3(std::bit_cast<glm::vec4>(record));
+// The rgb of a quad.
+inline reference::Vec3 colour(const glm::uvec4& quad) {
+    return reference::Vec3(std::bit_cast<glm::vec4>(quad));
 }
-inline glm::uvec4 record(const reference::Vec3& v, uint32_t w = 0) {
+inline glm::uvec4 quad(const reference::Vec3& v, uint32_t w = 0) {
     return {std::bit_cast<glm::uvec3>(glm::vec3(v)), w};
 }
 

@@ -76,9 +76,8 @@ public:
 
     // A place where a slice may end. submit() submits as many passes as took about 100 ms when they last ran
     // (which changes no result) and waits for each submission but the last, so that no watchdog sees a long
-    // one. Once so
-    // many passes are declared as one execution may hold, cut() executes them: however much a frame is, what
-    // belongs to its passes stays bounded.
+    // one. Once so many passes are declared as one execution may hold, cut() executes them: however much a
+    // frame is, what belongs to its passes stays bounded.
     void cut();
 
     // How long one submission may take before execute() gives the device up: 60 s; on a CPU 600 s, which

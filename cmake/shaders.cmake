@@ -54,7 +54,7 @@ function(irradia_kernels target dir)
       set(spirv ${out}/${name}.${records}.inc)
       add_custom_command(OUTPUT ${spirv}
         COMMAND ${CMAKE_COMMAND} -E make_directory ${out}
-        COMMAND ${GLSLANG_VALIDATOR} --quiet --target-env vulkan1.2 -DRECORDS_IN_${upper} ${flags}
+        COMMAND ${GLSLANG_VALIDATOR} --quiet --target-env vulkan1.2 -DQUADS_IN_${upper} ${flags}
                 --depfile ${spirv}.d --vn ${name}_${records} -o ${spirv} ${source}
         DEPENDS ${source} DEPFILE ${spirv}.d # which names the files it includes
         COMMENT "GLSL ${group}/${name} (${records})" VERBATIM)

@@ -14,7 +14,7 @@ using namespace irradia::test;
 namespace {
 
 Device& device() {
-    return deviceWith(RecordAccess::Texel);
+    return deviceWith(QuadAccess::Texel);
 }
 
 // The small box with a weaker second lamp on the ceiling; `on`: the stronger one shines.

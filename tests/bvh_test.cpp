@@ -1,4 +1,4 @@
-// The hierarchy's structure, read back from its records.
+// The hierarchy's structure, read back from its quads.
 #include "engine/error.h"
 #include "engine/scene/bvh/bvh.h"
 #include "tests/support/triangle_scenes.h"
@@ -19,10 +19,10 @@ struct Child {
 };
 
 uint32_t itemsOf(const Bvh& bvh) {
-    return static_cast<uint32_t>(bvh.records.size() / gpu::kItemRecords);
+    return static_cast<uint32_t>(bvh.quads.size() / gpu::kItemQuads);
 }
 const glm::uvec4* itemAt(const Bvh& bvh, uint32_t item) {
-    return &bvh.records.at(size_t{item} * 3);
+    return &bvh.quads.at(size_t{item} * 3);
 }
 bool isTriangle(const Bvh& bvh, uint32_t item) {
     return (itemAt(bvh, item)[0].w & gpu::kTriangleItem) != 0;
@@ -154,18 +154,17 @@ TEST_CASE("with spatial splits every part of a triangle is reachable") {
     checkBvh(closedSphere(24, 40, 3.0f, {100, 0, 0}));
 }
 
-TEST_CASE("the same scene gives the same records at any number of threads") {
+TEST_CASE("the same scene gives the same quads at any number of threads") {
     const Scene scene = triangleSoup(8000, 0.3f, 4);
     const Bvh once = buildBvh(scene);
-    for (uint32_t threads : {1u, 2u, 3u})
-        CHECK(buildBvh(scene, {.threads = threads}).records == once.records);
+    for (uint32_t threads : {1u, 2u, 3u}) CHECK(buildBvh(scene, {.threads = threads}).quads == once.quads);
 }
 
 TEST_CASE("an empty scene has a root that nothing hits") {
     const Bvh bvh = buildBvh(Scene{});
-    REQUIRE(bvh.records.size() == gpu::kItemRecords);
+    REQUIRE(bvh.quads.size() == gpu::kItemQuads);
     CHECK(isTriangle(bvh, bvh.root));
-    CHECK(glm::uvec3(bvh.records[1]) == glm::uvec3(0)); // no edges
+    CHECK(glm::uvec3(bvh.quads[1]) == glm::uvec3(0)); // no edges
     CHECK(bvh.stackNeed == 0);
 }
 

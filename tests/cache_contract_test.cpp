@@ -15,7 +15,7 @@ using namespace irradia::test;
 namespace {
 
 Device& device() {
-    return deviceWith(RecordAccess::Texel);
+    return deviceWith(QuadAccess::Texel);
 }
 
 PathTracerOptions picture(uint32_t size) {
@@ -38,9 +38,9 @@ const Scene& sphere() {
 
 const GpuScene& furnace() {
     static const GpuScene* scene = [] {
-        SceneRecords records = packScene(sphere());
-        packAreaTable(records);
-        return new GpuScene(uploadScene(device(), records, buildBvh(sphere())));
+        PackedScene packed = packScene(sphere());
+        packAreaTable(packed);
+        return new GpuScene(uploadScene(device(), packed, buildBvh(sphere())));
     }();
     return *scene;
 }

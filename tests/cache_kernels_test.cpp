@@ -30,8 +30,8 @@ Quads predictionRecords(const std::vector<Vec3>& predictions) {
     return records;
 }
 
-RecordAccess eachForm() {
-    return GENERATE(RecordAccess::Texel, RecordAccess::Storage);
+QuadAccess eachForm() {
+    return GENERATE(QuadAccess::Texel, QuadAccess::Storage);
 }
 
 } // namespace
@@ -68,7 +68,7 @@ struct Answers {
 
 constexpr double kBefore = 0.25; // radiance that paths have already
 
-Answers resolve(RecordAccess form, const Queries& q, bool factorise, double scale) {
+Answers resolve(QuadAccess form, const Queries& q, bool factorise, double scale) {
     CacheBench bench(form);
     bench.set(gpu::kQueryCounter, static_cast<uint32_t>(q.inputs.size()));
     bench.set(stateOf(scale));
@@ -120,7 +120,7 @@ double worstOf(const Answers& actual, const Answers& expected, double scale) {
 } // namespace
 
 TEST_CASE("predictions are added to their paths, weighted, scaled, and times the reflectance") {
-    const RecordAccess form = eachForm();
+    const QuadAccess form = eachForm();
     for (const size_t rows : {0, 1, 255, 256, 257}) {
         for (const bool factorise : {false, true}) {
             const double scale = rows == 255 ? 0.25 : rows == 256 ? 16.0 : 1.0;
@@ -136,7 +136,7 @@ TEST_CASE("predictions are added to their paths, weighted, scaled, and times the
 
 TEST_CASE("planted: predictions at the wrong path, without weight, scale, reflectance or clamp are found") {
     const Queries q = randomQueries(256, false);
-    const Answers actual = resolve(RecordAccess::Texel, q, true, 4.0);
+    const Answers actual = resolve(QuadAccess::Texel, q, true, 4.0);
     const auto isFound = [&](const Queries& other, bool factorise, double scale) {
         return worstOf(actual, twin(other, factorise, scale), 4.0) > 100.0 * kRounding;
     };
@@ -173,7 +173,7 @@ std::vector<Vec3> randomPredictions(size_t count) {
     return predictions;
 }
 
-Propagated propagate(RecordAccess form, const std::vector<TrainingPath>& paths,
+Propagated propagate(QuadAccess form, const std::vector<TrainingPath>& paths,
                      const std::vector<Vec3>& predictions, bool factorise, double scale,
                      uint32_t frames = 1) {
     CacheBench bench(form);
@@ -264,7 +264,7 @@ double worstOf(const Propagated& actual, const Propagated& expected) {
 } // namespace
 
 TEST_CASE("light goes back along training paths as in the twin") {
-    const RecordAccess form = eachForm();
+    const QuadAccess form = eachForm();
     for (const size_t count : {1, 33, 1000}) {
         for (const bool factorise : {false, true}) {
             Random random(count);
@@ -286,7 +286,7 @@ TEST_CASE("a cache that has learned nothing adds nothing to targets") {
     Random random(8);
     std::vector<TrainingPath> paths = randomPaths(random, 200);
     const std::vector<Vec3> predictions = randomPredictions(200);
-    const Propagated actual = propagate(RecordAccess::Texel, paths, predictions, true, 4.0, 0);
+    const Propagated actual = propagate(QuadAccess::Texel, paths, predictions, true, 4.0, 0);
     CHECK(worstOf(actual, twin(paths, predictions, true, 4.0)) > 0.1);
     for (TrainingPath& path : paths) path.end.reset();
     CHECK(worstOf(actual, twin(paths, predictions, true, 4.0)) <= kPropagated);
@@ -296,7 +296,7 @@ TEST_CASE("planted: a step too few, the reflectance of another vertex, self-trai
     Random random(5);
     const std::vector<TrainingPath> paths = randomPaths(random, 64);
     const std::vector<Vec3> predictions = randomPredictions(64);
-    const Propagated actual = propagate(RecordAccess::Texel, paths, predictions, true, 4.0);
+    const Propagated actual = propagate(QuadAccess::Texel, paths, predictions, true, 4.0);
     const auto isFound = [&](const std::vector<TrainingPath>& other, double scale = 4.0) {
         return worstOf(actual, twin(other, predictions, true, scale)) > 100.0 * kPropagated;
     };
@@ -321,6 +321,6 @@ TEST_CASE("planted: a step too few, the reflectance of another vertex, self-trai
 }
 
 TEST_CASE("the device has nothing to say against it") {
-    for (const RecordAccess form : {RecordAccess::Texel, RecordAccess::Storage})
+    for (const QuadAccess form : {QuadAccess::Texel, QuadAccess::Storage})
         CHECK(deviceWith(form).validationMessages() == 0);
 }

@@ -29,7 +29,7 @@ constexpr float kNever = std::numeric_limits<float>::infinity();
 
 // Bound where a kernel declares more than it uses.
 Buffer unused() {
-    return recordBuffer(Quads(4));
+    return quadBuffer(Quads(4));
 }
 
 } // namespace
@@ -230,11 +230,11 @@ Walks walkOnDevice(const Paths& paths, const gpu::CacheRule& rule) {
     static const Kernel kernel(validatedDevice(), kernels::cache_walk);
     const TrainingBuffers empty = packPaths(std::vector<TrainingPath>(kPaths));
     const size_t rows = empty.queries.size() / gpu::kCacheInputQuads;
-    const Buffer scene = unused(), states = recordBuffer(Quads(rows)), training = recordBuffer(empty.paths),
-                 vertices = recordBuffer(empty.vertices), queries = recordBuffer(empty.queries),
-                 weights = recordBuffer(Quads(rows)), ends = recordBuffer(empty.queries),
-                 counters = recordBuffer(Quads(gpu::kCacheCounters / 4)),
-                 given = recordBuffer(packVertices(paths));
+    const Buffer scene = unused(), states = quadBuffer(Quads(rows)), training = quadBuffer(empty.paths),
+                 vertices = quadBuffer(empty.vertices), queries = quadBuffer(empty.queries),
+                 weights = quadBuffer(Quads(rows)), ends = quadBuffer(empty.queries),
+                 counters = quadBuffer(Quads(gpu::kCacheCounters / 4)),
+                 given = quadBuffer(packVertices(paths));
     struct Push {
         gpu::CacheRule rule;
         gpu::CacheWalkParams harness;

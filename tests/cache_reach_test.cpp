@@ -14,7 +14,7 @@ using namespace irradia::test;
 namespace {
 
 Device& device() {
-    return deviceWith(RecordAccess::Texel);
+    return deviceWith(QuadAccess::Texel);
 }
 
 PathTracerOptions picture(uint32_t size, uint32_t maxBounces) {

@@ -27,8 +27,8 @@ using reference::Vec3;
 
 namespace {
 
-RecordAccess eachForm() {
-    return GENERATE(RecordAccess::Texel, RecordAccess::Storage);
+QuadAccess eachForm() {
+    return GENERATE(QuadAccess::Texel, QuadAccess::Storage);
 }
 
 } // namespace
@@ -62,7 +62,7 @@ Quads packSums(const std::vector<PathSum>& sums) {
 
 class Counting {
 public:
-    explicit Counting(RecordAccess form)
+    explicit Counting(QuadAccess form)
         : bench(form)
         , kernel(bench.kernel(kernels::count_records)) {}
 
@@ -127,7 +127,7 @@ float sumInFixedOrder(const std::vector<PathSum>& sums, size_t lanes) {
 } // namespace
 
 TEST_CASE("each path gets its place among the records, and what has no room is counted") {
-    const RecordAccess form = eachForm();
+    const QuadAccess form = eachForm();
     Counting counting(form);
     for (const size_t paths : {0, 1, 31, 32, 33, 1000}) {
         Random random(paths + 1);
@@ -144,7 +144,7 @@ TEST_CASE("each path gets its place among the records, and what has no room is c
 }
 
 TEST_CASE("sums over paths are taken in an order that depends on nothing else") {
-    const RecordAccess form = eachForm();
+    const QuadAccess form = eachForm();
     Counting counting(form);
     Random random(7);
     std::vector<PathSum> sums = randomSums(random, 1024, 1.0);
@@ -165,7 +165,7 @@ TEST_CASE("sums over paths are taken in an order that depends on nothing else") 
 }
 
 TEST_CASE("the running mean of brightness and the scale follow the scene's brightness") {
-    const RecordAccess form = eachForm();
+    const QuadAccess form = eachForm();
     Counting counting(form);
     reference::Brightness twin;
     Random random(9);
@@ -195,7 +195,7 @@ TEST_CASE("the running mean of brightness and the scale follow the scene's brigh
 }
 
 TEST_CASE("the scale stays from a quarter to four, and moves beyond") {
-    Counting counting(RecordAccess::Texel);
+    Counting counting(QuadAccess::Texel);
     const auto scaleAfter = [&](float brightness) {
         counting.bench.set(stateOf(1.0));
         counting.run({{1, std::sqrt(brightness), brightness}}, 10);
@@ -210,7 +210,7 @@ TEST_CASE("the scale stays from a quarter to four, and moves beyond") {
 }
 
 TEST_CASE("a frame without records leaves the mean and the scale as they are") {
-    Counting counting(RecordAccess::Texel);
+    Counting counting(QuadAccess::Texel);
     Random random(11);
     counting.run(randomSums(random, 50, 20.0), 1000);
     const gpu::CacheState before = counting.bench.readState();
@@ -227,7 +227,7 @@ TEST_CASE("a frame without records leaves the mean and the scale as they are") {
 }
 
 TEST_CASE("with the scale the last layer changes, so that predictions keep their meaning") {
-    const RecordAccess form = eachForm();
+    const QuadAccess form = eachForm();
     CacheBench bench(form);
     Random random(13);
     std::vector<float> before(256);
@@ -262,7 +262,7 @@ using WrittenRecord = std::optional<std::pair<Values, Vec3>>; // nothing where t
 const glm::uvec4 kUntouched(0x7fc12345u);
 
 // Of `rows` rows of the buffers, those that are written; `places` is what the kernel is told.
-std::vector<WrittenRecord> write(RecordAccess form, const std::vector<TrainingPath>& paths,
+std::vector<WrittenRecord> write(QuadAccess form, const std::vector<TrainingPath>& paths,
                                  const std::vector<PathSum>& places, uint32_t capacity, bool factorise,
                                  double scale, size_t rows) {
     CacheBench bench(form);
@@ -333,7 +333,7 @@ size_t wrongRows(const std::vector<WrittenRecord>& written, const std::vector<Tr
 } // namespace
 
 TEST_CASE("records hold each training vertex once, its target demodulated and scaled") {
-    const RecordAccess form = eachForm();
+    const QuadAccess form = eachForm();
     for (const size_t count : {1, 33, 200}) {
         Random random(count + 20);
         const std::vector<TrainingPath> paths = randomPaths(random, count);
@@ -365,7 +365,7 @@ TEST_CASE("what is beyond the capacity is left out evenly") {
     const uint32_t total = recordsOf(placesOf(paths));
     for (const uint32_t capacity : {1u, total / 3, total / 2, total - 1}) {
         INFO(capacity << " of " << total);
-        const auto written = write(RecordAccess::Texel, paths, placesOf(paths), capacity, false, 1.0, 2048);
+        const auto written = write(QuadAccess::Texel, paths, placesOf(paths), capacity, false, 1.0, 2048);
         CHECK(wrongRows(written, paths, capacity, false, 1.0) == 0);
         // Inputs are random: each row tells which vertex it is.
         std::vector<bool> isKept;
@@ -395,7 +395,7 @@ TEST_CASE("places among the kept are exact for products beyond 32 bits") {
     }
     things.emplace_back(0x7ffffffeu, 0x7fffffffu, 0x7fffffffu, 0);
     things.emplace_back(0x7ffffffeu, 0x7ffffffeu, 0x7fffffffu, 0);
-    const Buffer input = recordBuffer(things);
+    const Buffer input = quadBuffer(things);
     const auto count = static_cast<uint32_t>(things.size());
     const Quads results = kernel.run({input}, gpu::CountParams{count}, count, count);
     size_t wrong = 0;
@@ -415,7 +415,7 @@ TEST_CASE("channels of next to no reflectance have nothing to learn, whatever wa
         inputs[9] = 0.0, inputs[12] = stored(0.0011); // learned
         path.vertices.push_back({inputs, {bad, 1.0, 1.0}, Vec3(0.0)});
     }
-    const auto written = write(RecordAccess::Texel, {path}, placesOf({path}), 8, true, 1.0, 16);
+    const auto written = write(QuadAccess::Texel, {path}, placesOf({path}), 8, true, 1.0, 16);
     for (size_t row = 0; row < 3; ++row) {
         REQUIRE(written[row]);
         CHECK(written[row]->second.x == 0.0);
@@ -428,7 +428,7 @@ TEST_CASE("planted: records that are exchanged, not demodulated, not scaled, or 
     Random random(31);
     const std::vector<TrainingPath> paths = randomPaths(random, 40);
     const uint32_t total = recordsOf(placesOf(paths));
-    const auto written = write(RecordAccess::Texel, paths, placesOf(paths), total, true, 2.0, 512);
+    const auto written = write(QuadAccess::Texel, paths, placesOf(paths), total, true, 2.0, 512);
     REQUIRE(wrongRows(written, paths, total, true, 2.0) == 0);
     CHECK(wrongRows(written, paths, total, false, 2.0) > total / 2);
     CHECK(wrongRows(written, paths, total, true, 1.0) > total / 2);
@@ -473,7 +473,7 @@ bool isFinite(const std::vector<float>& values) {
 } // namespace
 
 TEST_CASE("bad radiance in training vertices is dropped and counted, and everything stays finite") {
-    Device& device = deviceWith(RecordAccess::Texel);
+    Device& device = deviceWith(QuadAccess::Texel);
     NeuralCache cache(device, smallCache(), kRoom);
     Random random(41);
     uint32_t dropped = 0, records = 0;
@@ -532,7 +532,7 @@ std::vector<glm::vec4> answersOf(Device& device, NeuralCache& cache, const std::
 } // namespace
 
 TEST_CASE("a cache that was saved and loaded predicts the same radiance, at whatever scale") {
-    Device& device = deviceWith(RecordAccess::Texel);
+    Device& device = deviceWith(QuadAccess::Texel);
     const TemporaryFolder folder;
     const auto file = folder / "room.cache";
     Random random(43);
@@ -566,6 +566,6 @@ TEST_CASE("a cache that was saved and loaded predicts the same radiance, at what
 }
 
 TEST_CASE("the device has nothing to say against it") {
-    for (const RecordAccess form : {RecordAccess::Texel, RecordAccess::Storage})
+    for (const QuadAccess form : {QuadAccess::Texel, QuadAccess::Storage})
         CHECK(deviceWith(form).validationMessages() == 0);
 }

@@ -54,9 +54,9 @@ bool isInUnitCube(const Values& inputs) {
 }
 
 GpuScene toGpu(const Scene& scene) {
-    SceneRecords records = packScene(scene);
-    packAreaTable(records);
-    return uploadScene(validatedDevice(), records, buildBvh(scene));
+    PackedScene packed = packScene(scene);
+    packAreaTable(packed);
+    return uploadScene(validatedDevice(), packed, buildBvh(scene));
 }
 
 Vec3 positionOf(const Values& inputs, const reference::CacheBox& box) {

@@ -17,7 +17,7 @@ using namespace irradia::test;
 namespace {
 
 Device& device() {
-    return deviceWith(RecordAccess::Texel);
+    return deviceWith(QuadAccess::Texel);
 }
 
 // ---- energy ----

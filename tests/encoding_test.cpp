@@ -300,7 +300,7 @@ TEST_CASE(
         for (int i = 0; i < 3; ++i) CHECK(harness.gradient(batch) == gradient);
         CHECK(harness.gradient(reversed(batch)) == gradient);
 
-        EncodingHarness storage(made, 0.0, 512, deviceWith(RecordAccess::Storage));
+        EncodingHarness storage(made, 0.0, 512, deviceWith(QuadAccess::Storage));
         CHECK(storage.encode(batch, features) == encoded);
         CHECK(storage.gradient(batch) == gradient);
 
@@ -500,5 +500,5 @@ TEST_CASE("parts that do not fit, and grids that are too large, are refused by t
 
 TEST_CASE("the device has nothing to say against it") {
     CHECK(validatedDevice().validationMessages() == 0);
-    CHECK(deviceWith(RecordAccess::Storage).validationMessages() == 0);
+    CHECK(deviceWith(QuadAccess::Storage).validationMessages() == 0);
 }

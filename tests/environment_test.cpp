@@ -1,7 +1,7 @@
 // Environments from files: which layer, what is mended, what is too large.
 #include "engine/image/image.h"
 #include "engine/scene/lights/environment_reduction.h"
-#include "engine/scene/lights/light_records.h"
+#include "engine/scene/lights/packed_lights.h"
 #include "engine/scene/load_scene.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/temporary_folder.h"
@@ -99,14 +99,14 @@ TEST_CASE("large environments are halved until they fit, and keep their mean") {
 }
 
 TEST_CASE("the reduction is told, its table is that of the smaller picture") {
-    SceneRecords records;
-    packEnvironment(ramp(8, 4), records, 10);
-    CHECK((records.environmentWidth == 4 && records.environmentHeight == 2));
-    CHECK(records.environment.size() == 8);
-    CHECK(records.environmentAlias.size() == 8);
-    CHECK(records.warnings == std::vector<std::string>{"the environment of 8x4 was reduced to 4x2 to fit"});
+    PackedScene packed;
+    packEnvironment(ramp(8, 4), packed, 10);
+    CHECK((packed.environmentWidth == 4 && packed.environmentHeight == 2));
+    CHECK(packed.environment.size() == 8);
+    CHECK(packed.environmentAlias.size() == 8);
+    CHECK(packed.warnings == std::vector<std::string>{"the environment of 8x4 was reduced to 4x2 to fit"});
 
-    SceneRecords constant;
+    PackedScene constant;
     packEnvironment({.constant = glm::vec3(1)}, constant, 10);
     CHECK(constant.warnings.empty());
 }

@@ -68,7 +68,7 @@ std::vector<glm::vec3> render(const Scene& scene) {
     PathTracerOptions options;
     options.width = options.height = kSize;
     options.maxBounces = 0;
-    GpuRenderer renderer(deviceWith(RecordAccess::Texel), scene);
+    GpuRenderer renderer(deviceWith(QuadAccess::Texel), scene);
     return renderer.render(chooseCamera(scene, "").camera, options, 2).mean;
 }
 
@@ -308,5 +308,5 @@ TEST_CASE("a file that is no glTF is named for what it is") {
 }
 
 TEST_CASE("no validation messages") {
-    CHECK(deviceWith(RecordAccess::Texel).validationMessages() == 0);
+    CHECK(deviceWith(QuadAccess::Texel).validationMessages() == 0);
 }

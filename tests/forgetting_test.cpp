@@ -68,9 +68,9 @@ public:
     Hall()
         : scene_(hall())
         , bounds_(sceneBounds(scene_)) {
-        SceneRecords records = packScene(scene_);
-        packAreaTable(records);
-        gpu_ = uploadScene(device(), records, buildBvh(scene_));
+        PackedScene packed = packScene(scene_);
+        packAreaTable(packed);
+        gpu_ = uploadScene(device(), packed, buildBvh(scene_));
         truth_ = pathTraced();
     }
 

@@ -40,12 +40,12 @@ void requireRefusal(ExitCode code, const std::string& sentence, Action&& action)
     FAIL("not refused: " << sentence);
 }
 
-const RecordAccess kForms[] = {RecordAccess::Texel, RecordAccess::Storage};
+const QuadAccess kForms[] = {QuadAccess::Texel, QuadAccess::Storage};
 
 } // namespace
 
 TEST_CASE("buffers start as zero and keep what is uploaded, at any offset") {
-    Device& device = deviceWith(RecordAccess::Texel);
+    Device& device = deviceWith(QuadAccess::Texel);
     Buffer buffer(device, "bytes", 1001);
     const std::vector<uint8_t> zeros(1001, 0);
     REQUIRE(download<uint8_t>(device, buffer, 1001) == zeros);
@@ -67,11 +67,11 @@ TEST_CASE("buffers start as zero and keep what is uploaded, at any offset") {
 }
 
 TEST_CASE("a kernel computes the same through texel views and through storage buffers") {
-    for (const RecordAccess form : kForms) {
+    for (const QuadAccess form : kForms) {
         Device& device = deviceWith(form);
-        REQUIRE(device.texelRecords() == (form == RecordAccess::Texel));
+        REQUIRE(device.texelQuads() == (form == QuadAccess::Texel));
         const Kernel scale(device, kernels::gpu_scale, {.constants = {{2, 5}}});
-        CHECK(scale.bindings().at(0).type == (form == RecordAccess::Texel
+        CHECK(scale.bindings().at(0).type == (form == QuadAccess::Texel
                                                   ? VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER
                                                   : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER));
         const std::vector<glm::uvec4> values = ramp(1000); // no multiple of a workgroup
@@ -88,7 +88,7 @@ TEST_CASE("a kernel computes the same through texel views and through storage bu
 }
 
 TEST_CASE("workgroup and subgroup have the sizes that kernels are told") {
-    Device& device = deviceWith(RecordAccess::Texel);
+    Device& device = deviceWith(QuadAccess::Texel);
     for (const uint32_t workgroup : {0u, 64u, 256u}) {
         if (device.canPinSubgroupSize() && workgroup > device.maxPinnedWorkgroup()) continue; // 4 lanes: 128
         const Kernel sizes(device, kernels::gpu_sizes, {.workgroupSize = workgroup});
@@ -109,8 +109,8 @@ TEST_CASE("workgroup and subgroup have the sizes that kernels are told") {
 // Without validation lavapipe gets no barriers.
 TEST_CASE("passes that depend on each other run in order") {
     Device plain;
-    CHECK_FALSE(deviceWith(RecordAccess::Texel).runsInOrder());
-    for (Device* each : {&deviceWith(RecordAccess::Texel), &deviceWith(RecordAccess::Storage), &plain}) {
+    CHECK_FALSE(deviceWith(QuadAccess::Texel).runsInOrder());
+    for (Device* each : {&deviceWith(QuadAccess::Texel), &deviceWith(QuadAccess::Storage), &plain}) {
         Device& device = *each;
         const Kernel scale(device, kernels::gpu_scale, {.constants = {{2, 1}}});
         constexpr uint32_t kCount = 50000;
@@ -141,7 +141,7 @@ TEST_CASE("passes that depend on each other run in order") {
 }
 
 TEST_CASE("what waits for an execution is called after it, in order, and never without") {
-    Device& device = deviceWith(RecordAccess::Texel);
+    Device& device = deviceWith(QuadAccess::Texel);
     const Kernel sizes(device, kernels::gpu_sizes);
     const Buffer buffer(device, "sizes", 16);
     std::vector<int> called;
@@ -177,7 +177,7 @@ TEST_CASE("what waits for an execution is called after it, in order, and never w
 }
 
 TEST_CASE("between submit and wait the host does other work, and the results are those of execute") {
-    Device& device = deviceWith(RecordAccess::Texel);
+    Device& device = deviceWith(QuadAccess::Texel);
     constexpr uint32_t kCount = 1000;
     const Kernel scale(device, kernels::gpu_scale);
     const std::vector<glm::uvec4> values = ramp(kCount);
@@ -222,7 +222,7 @@ TEST_CASE("between submit and wait the host does other work, and the results are
 }
 
 TEST_CASE("an indirect dispatch runs the group counts that an earlier pass wrote") {
-    Device& device = deviceWith(RecordAccess::Texel);
+    Device& device = deviceWith(QuadAccess::Texel);
     const Kernel count(device, kernels::gpu_count, {.workgroupSize = 32});
     const Buffer first(device, "first", 16);
     const Buffer second(device, "second", 16);
@@ -244,7 +244,7 @@ TEST_CASE("an indirect dispatch runs the group counts that an earlier pass wrote
 }
 
 TEST_CASE("mapped buffers carry words to the device and back") {
-    Device& device = deviceWith(RecordAccess::Texel);
+    Device& device = deviceWith(QuadAccess::Texel);
     const Kernel count(device, kernels::gpu_count, {});
     const Buffer counters(device, "counters", 16, Memory::Host);
     const Buffer arguments(device, "arguments", 12);
@@ -260,7 +260,7 @@ TEST_CASE("mapped buffers carry words to the device and back") {
 }
 
 TEST_CASE("reads outside of a binding give zero") {
-    for (const RecordAccess form : kForms) {
+    for (const QuadAccess form : kForms) {
         Device& device = deviceWith(form);
         const Kernel read(device, kernels::gpu_read_outside, {});
         const Buffer ones = makeBuffer(device, "ones", std::vector<uint32_t>(4096, 1));
@@ -287,7 +287,7 @@ TEST_CASE("reads outside of a binding give zero") {
 }
 
 TEST_CASE("a pass that does not fit its kernel is refused by name") {
-    Device& device = deviceWith(RecordAccess::Texel);
+    Device& device = deviceWith(QuadAccess::Texel);
     const Kernel scale(device, kernels::gpu_scale, {});
     const Kernel spin(device, kernels::gpu_spin, {});
     const Buffer a(device, "a", 160);
@@ -340,7 +340,7 @@ TEST_CASE("a pass that does not fit its kernel is refused by name") {
 }
 
 TEST_CASE("a whole buffer beyond the limit of storage bindings is refused where it is bound") {
-    Device& device = deviceWith(RecordAccess::Storage);
+    Device& device = deviceWith(QuadAccess::Storage);
     const uint64_t bytes = uint64_t{device.limits().maxStorageBufferRange} + 16;
     if (bytes > (256ull << 20)) SKIP("this device binds " << bytes - 16 << " bytes at once");
     const Kernel scale(device, kernels::gpu_scale, {});
@@ -353,7 +353,7 @@ TEST_CASE("a whole buffer beyond the limit of storage bindings is refused where 
 }
 
 TEST_CASE("memory beyond the budget is refused, planned or not, and counted while it is held") {
-    Device& device = deviceWith(RecordAccess::Texel);
+    Device& device = deviceWith(QuadAccess::Texel);
     const uint64_t before = device.memoryUsed();
     const uint64_t budget = device.memoryBudget();
     CHECK(budget > 0);
@@ -378,7 +378,7 @@ TEST_CASE("memory beyond the budget is refused, planned or not, and counted whil
 TEST_CASE("devices are chosen by index, part of the name or type") {
     const std::vector<DeviceDescription> devices = listDevices();
     REQUIRE(!devices.empty());
-    const DeviceDescription& own = deviceWith(RecordAccess::Texel).description();
+    const DeviceDescription& own = deviceWith(QuadAccess::Texel).description();
     CHECK(Device({.select = std::to_string(own.index)}).description().name == own.name);
     CHECK(Device({.select = own.name.substr(1, 6)}).description().name == own.name);
     if (own.type == "cpu") CHECK(Device({.select = "cpu"}).isCpu());
@@ -390,7 +390,7 @@ TEST_CASE("devices are chosen by index, part of the name or type") {
 }
 
 TEST_CASE("the profiler has a row for each pass, and slices change no result") {
-    Device& device = deviceWith(RecordAccess::Texel);
+    Device& device = deviceWith(QuadAccess::Texel);
     const Kernel spin(device, kernels::gpu_spin, {});
     std::vector<std::vector<uint32_t>> results;
     for (const bool cuts : {false, true}) {

@@ -29,7 +29,7 @@ std::string adam(double emaDecay = 0.9, double clipNorm = 0.0, double l2 = 1e-6)
 
 // A function that a network of any encoding learns easily.
 TrainingRecords smoothRecords(uint64_t seed, double scale = 1.0) {
-    TrainingRecords records = randomRecords(kRecords, seed);
+    TrainingRecords records = randomQuads(kRecords, seed);
     for (uint32_t i = 0; i < kRecords; ++i)
         for (uint32_t o = 0; o < kTrainerOutputs; ++o)
             records.targets[size_t{i} * kTrainerOutputs + o] = scale * (0.5 + 0.4 * records.inputRow(i)[o]);

@@ -14,7 +14,7 @@ using namespace irradia;
 namespace {
 
 Device& device() {
-    return test::deviceWith(RecordAccess::Texel);
+    return test::deviceWith(QuadAccess::Texel);
 }
 
 // tests/shaders/uniform_lights.

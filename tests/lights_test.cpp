@@ -1,6 +1,6 @@
 // Light sampling in the shaders: what is chosen how often, the densities it claims, and direct light by it.
-#include "engine/scene/lights/light_records.h"
 #include "engine/scene/lights/light_tree.h"
+#include "engine/scene/lights/packed_lights.h"
 #include "kernels/shaders.h"
 #include "tests/reference/lights.h"
 #include "tests/reference/statistics.h"

@@ -18,7 +18,7 @@ using namespace irradia::test;
 namespace {
 
 Device& device() {
-    return deviceWith(RecordAccess::Texel);
+    return deviceWith(QuadAccess::Texel);
 }
 
 struct Loaded {
@@ -28,10 +28,10 @@ struct Loaded {
         , bounds(sceneBounds(scene))
         , gpu(uploadScene(device(), packScene(scene), buildBvh(scene)))
         , withAreaTable(uploadScene(device(), recordsWithTable(), buildBvh(scene))) {}
-    SceneRecords recordsWithTable() const {
-        SceneRecords records = packScene(scene);
-        packAreaTable(records);
-        return records;
+    PackedScene recordsWithTable() const {
+        PackedScene packed = packScene(scene);
+        packAreaTable(packed);
+        return packed;
     }
     Scene scene;
     Camera camera;

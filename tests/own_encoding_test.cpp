@@ -108,7 +108,7 @@ TEST_CASE("it encodes, in both precisions") {
 
 TEST_CASE("a model that has it learns") {
     TrainerHarness harness(parse(R"({"otype": "Square", "scale": 2})"));
-    TrainingRecords records = randomRecords(kTrainerBatch, 1);
+    TrainingRecords records = randomQuads(kTrainerBatch, 1);
     for (uint32_t row = 0; row < records.count(); ++row)
         for (uint32_t o = 0; o < kTrainerOutputs; ++o) {
             const double x = records.inputs[row * kTrainerInputs + o];

@@ -129,7 +129,7 @@ TEST_CASE("the same frames are bit-identical, whatever the wave size, the groupi
 TEST_CASE("storage-buffer kernels give the picture of the texel-view kernels") {
     const Scene scene = reference::smallBox();
     DeviceOptions options;
-    options.records = RecordAccess::Storage;
+    options.quads = QuadAccess::Storage;
     options.validation = true;
     Device storage(options);
     const FilmImage a = test::GpuRenderer(device(), scene).render(scene.cameras.at(0), picture(32, 4), 4);

@@ -24,7 +24,7 @@ namespace {
 constexpr uint64_t kBinding = uint64_t{128} << 20;
 
 Device& device() {
-    return deviceWith(RecordAccess::Texel);
+    return deviceWith(QuadAccess::Texel);
 }
 
 NrcOptions optionsOf(uint32_t width, uint32_t height, const std::string& preset = "balanced") {

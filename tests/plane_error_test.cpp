@@ -50,7 +50,7 @@ struct Outcome {
 Outcome trace(const std::vector<glm::vec4>& cases, float fault = 1.0f) {
     KernelHarness kernel(kernels::plane_error, {floatConstant(40, fault)});
     Outcome outcome;
-    const Buffer input = recordBuffer(cases);
+    const Buffer input = quadBuffer(cases);
     for (const glm::uvec4& record : kernel.run({input}, gpu::PlaneErrorParams{kCases}, kCases, kCases)) {
         outcome.results.push_back(toFloats(record));
         outcome.hits += outcome.results.back().x != 0.0f;

@@ -48,7 +48,7 @@ std::vector<LookUp> lookUps() {
     });
 
     test::KernelHarness kernel(kernels::bsdf_reflectance);
-    const Buffer inputs = test::recordBuffer(queries), table = test::recordBuffer(buildReflectanceTable());
+    const Buffer inputs = test::quadBuffer(queries), table = test::quadBuffer(buildReflectanceTable());
     const gpu::BsdfHarnessParams params{static_cast<uint32_t>(grid.size()), 0, 0, 0};
     const auto results = kernel.run({inputs, table}, params, grid.size(), grid.size());
     for (size_t i = 0; i < grid.size(); ++i) {

@@ -139,7 +139,7 @@ TEST_CASE("equirectangular coordinates and directions are each other's inverse")
         directions.emplace_back(glm::vec3(d), 0.0f);
     }
     test::KernelHarness kernel(kernels::sampler_equirect);
-    const Buffer input = test::recordBuffer(directions);
+    const Buffer input = test::quadBuffer(directions);
     const gpu::WarpHarnessParams params{glm::vec4(0), 0, static_cast<uint32_t>(directions.size()), 0, 0};
     const auto results = kernel.run({input}, params, directions.size(), 2 * directions.size());
     for (size_t i = 0; i < directions.size(); ++i) {
@@ -164,7 +164,7 @@ TEST_CASE("the power heuristic's weights") {
         pairs.emplace_back(std::exp(24.0 * random.uniform() - 12.0), std::exp(24.0 * random.uniform() - 12.0),
                            0, 0);
     test::KernelHarness kernel(kernels::sampler_heuristic);
-    const Buffer input = test::recordBuffer(pairs);
+    const Buffer input = test::quadBuffer(pairs);
     const gpu::WarpHarnessParams params{glm::vec4(0), 0, static_cast<uint32_t>(pairs.size()), 0, 0};
     const auto results = kernel.run({input}, params, pairs.size(), pairs.size());
     for (size_t i = 0; i < pairs.size(); ++i) {
@@ -240,8 +240,7 @@ TEST_CASE("camera rays are uniform in their pixels") {
 
     Device& device = test::validatedDevice();
     const Kernel kernel(device, kernels::generate_camera_rays);
-    const Buffer rays(device, "rays", kRays * gpu::kRayRecords * 16),
-        radiance(device, "radiance", kRays * 16);
+    const Buffer rays(device, "rays", kRays * gpu::kRayQuads * 16), radiance(device, "radiance", kRays * 16);
     const Buffer counters(device, "counters", gpu::kCounters * 4);
     PathTracerOptions options;
     options.width = kWidth;
@@ -261,7 +260,7 @@ TEST_CASE("camera rays are uniform in their pixels") {
             .push(gpu::WaveParams{0, frame, 0, kRays, 0, 0})
             .dispatch(kRays);
         graph.execute();
-        const auto records = download<glm::uvec4>(device, rays, kRays * gpu::kRayRecords);
+        const auto records = download<glm::uvec4>(device, rays, kRays * gpu::kRayQuads);
         for (uint32_t path = 0; path < kRays; ++path) {
             REQUIRE(records[path * 3].w == path);
             const Vec3 d(toFloats(records[path * 3 + 1]));
@@ -283,8 +282,7 @@ TEST_CASE("rays of an orthographic camera are parallel and leave their pixels") 
     const Vec3 position(1, 2, 3), forward(0, 0, -1), right(2, 0, 0), up(0, 1, 0);
     Device& device = test::validatedDevice();
     const Kernel kernel(device, kernels::generate_camera_rays);
-    const Buffer rays(device, "rays", kRays * gpu::kRayRecords * 16),
-        radiance(device, "radiance", kRays * 16);
+    const Buffer rays(device, "rays", kRays * gpu::kRayQuads * 16), radiance(device, "radiance", kRays * 16);
     const Buffer counters(device, "counters", gpu::kCounters * 4);
     FrameGraph graph(device);
     FrameUniforms uniforms{};
@@ -302,7 +300,7 @@ TEST_CASE("rays of an orthographic camera are parallel and leave their pixels") 
         .push(gpu::WaveParams{0, 0, 0, kRays, 0, 0})
         .dispatch(kRays);
     graph.execute();
-    const auto records = download<glm::uvec4>(device, rays, kRays * gpu::kRayRecords);
+    const auto records = download<glm::uvec4>(device, rays, kRays * gpu::kRayQuads);
     for (uint32_t path = 0; path < kRays; ++path) {
         const Vec3 origin = Vec3(toFloats(records[path * 3])) - position;
         REQUIRE(Vec3(toFloats(records[path * 3 + 1])) == forward);

@@ -1,6 +1,6 @@
 // A scene that changes on the device: the picture is that of the same state uploaded, bit for bit, and lamps
 // that are off are not sampled.
-#include "engine/scene/scene_records.h"
+#include "engine/scene/packed_scene.h"
 #include "tests/reference/simple_scenes.h"
 #include "tests/reference/z_test.h"
 #include "tests/support/expect_error.h"
@@ -15,7 +15,7 @@ using namespace irradia::test;
 namespace {
 
 Device& device() {
-    return deviceWith(RecordAccess::Texel);
+    return deviceWith(QuadAccess::Texel);
 }
 
 constexpr size_t kWhite = 0, kLampOfBox = 3, kSecondLamp = 6;
@@ -72,15 +72,15 @@ FilmImage render(WavefrontPathTracer& tracer, uint32_t frames) {
 } // namespace
 
 TEST_CASE("a lamp that is off has a record without probability") {
-    const SceneRecords records = packScene(lampsExchanged(), allStates());
-    REQUIRE(records.lights.size() == 4);
+    const PackedScene packed = packScene(lampsExchanged(), allStates());
+    REQUIRE(packed.lights.size() == 4);
     for (size_t i = 0; i < 4; ++i) {
         const bool isOn = i >= 2; // triangles of the second lamp
-        CHECK(std::bit_cast<float>(records.lights[i].w) == (isOn ? 0.5f : 0.0f));
-        if (!isOn) CHECK(std::bit_cast<float>(records.lights[i].x) == 0.0f);
-        CHECK(records.lights[i].y >= 2); // whoever draws one that is off gets one that is on
+        CHECK(std::bit_cast<float>(packed.lights[i].w) == (isOn ? 0.5f : 0.0f));
+        if (!isOn) CHECK(std::bit_cast<float>(packed.lights[i].x) == 0.0f);
+        CHECK(packed.lights[i].y >= 2); // whoever draws one that is off gets one that is on
     }
-    CHECK(records.environmentProbability == 0.0f);
+    CHECK(packed.environmentProbability == 0.0f);
     CHECK(packScene(skyAlone(), allStates()).environmentProbability == 1.0f);
     CHECK(packScene(twoLamps(), allStates()).needs.environment);
 }

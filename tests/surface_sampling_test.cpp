@@ -71,13 +71,13 @@ struct Sample {
 };
 
 // Of the paths `first` to `first` + `count` of a frame.
-std::vector<Sample> draw(RecordAccess form, uint32_t first, uint32_t count, uint32_t frame) {
+std::vector<Sample> draw(QuadAccess form, uint32_t first, uint32_t count, uint32_t frame) {
     Device& device = deviceWith(form);
-    SceneRecords records = packScene(soup());
-    packAreaTable(records);
-    const GpuScene scene = uploadScene(device, records, buildBvh(soup()));
+    PackedScene packed = packScene(soup());
+    packAreaTable(packed);
+    const GpuScene scene = uploadScene(device, packed, buildBvh(soup()));
     const Kernel kernel(device, kernels::generate_surface_rays);
-    const Buffer rays(device, "rays", uint64_t{count} * gpu::kRayRecords * 16),
+    const Buffer rays(device, "rays", uint64_t{count} * gpu::kRayQuads * 16),
         hits(device, "hits", uint64_t{count} * 16), counters(device, "counters", gpu::kCounters * 4);
     FrameUniforms uniforms{};
     uniforms.frame.seed = 1;
@@ -100,11 +100,11 @@ std::vector<Sample> draw(RecordAccess form, uint32_t first, uint32_t count, uint
         .dispatch(count);
     graph.execute();
     REQUIRE(download<uint32_t>(device, counters, 1).front() == count);
-    const auto ray = download<glm::uvec4>(device, rays, size_t{count} * gpu::kRayRecords),
+    const auto ray = download<glm::uvec4>(device, rays, size_t{count} * gpu::kRayQuads),
                hit = download<glm::uvec4>(device, hits, count);
     std::vector<Sample> samples(count);
     for (size_t i = 0; i < count; ++i) {
-        const glm::uvec4* r = &ray[i * gpu::kRayRecords];
+        const glm::uvec4* r = &ray[i * gpu::kRayQuads];
         const auto h = std::bit_cast<glm::vec4>(hit[i]);
         samples[i] = {Vec3(std::bit_cast<glm::vec4>(r[0])),
                       Vec3(std::bit_cast<glm::vec4>(r[1])),
@@ -118,7 +118,7 @@ std::vector<Sample> draw(RecordAccess form, uint32_t first, uint32_t count, uint
 }
 
 const std::vector<Sample>& samples() {
-    static const std::vector<Sample> drawn = draw(RecordAccess::Texel, 0, kSamples, 0);
+    static const std::vector<Sample> drawn = draw(QuadAccess::Texel, 0, kSamples, 0);
     return drawn;
 }
 
@@ -146,21 +146,21 @@ private:
 } // namespace
 
 TEST_CASE("the area table gives each triangle the share of its area") {
-    SceneRecords records = packScene(soup());
-    CHECK(records.areaTable.empty()); // unless it is asked for
-    packAreaTable(records);
-    packAreaTable(records);
-    REQUIRE(records.areaTable.size() == kTriangles);
+    PackedScene packed = packScene(soup());
+    CHECK(packed.areaTable.empty()); // unless it is asked for
+    packAreaTable(packed);
+    packAreaTable(packed);
+    REQUIRE(packed.areaTable.size() == kTriangles);
     std::vector<double> shares(kTriangles);
     for (uint32_t i = 0; i < kTriangles; ++i) {
-        const double keep = double(std::bit_cast<float>(records.areaTable[i].x));
+        const double keep = double(std::bit_cast<float>(packed.areaTable[i].x));
         shares[i] += keep / kTriangles;
-        shares.at(records.areaTable[i].y) += (1.0 - keep) / kTriangles;
+        shares.at(packed.areaTable[i].y) += (1.0 - keep) / kTriangles;
     }
     const std::vector<double> expected = areaShares();
     // Edges are rounded to floats where a triangle is packed, keep probabilities too.
     for (uint32_t i = 0; i < kTriangles; ++i) CHECK(std::abs(shares[i] - expected[i]) < 1e-7);
-    SceneRecords nothing = packScene(Scene{});
+    PackedScene nothing = packScene(Scene{});
     packAreaTable(nothing);
     CHECK(nothing.areaTable.empty());
 }
@@ -230,10 +230,10 @@ TEST_CASE("a path's point follows from its number and frame alone, in both forms
         return std::ranges::equal(a, std::span(samples()).subspan(from, a.size()),
                                   [](const Sample& x, const Sample& y) { return x.key() == y.key(); });
     };
-    CHECK(areSame(draw(RecordAccess::Texel, 0, 1000, 0), 0));
-    CHECK(areSame(draw(RecordAccess::Texel, 777, 1000, 0), 777)); // another wave
-    CHECK(areSame(draw(RecordAccess::Storage, 0, 1000, 0), 0));
-    CHECK_FALSE(areSame(draw(RecordAccess::Texel, 0, 1000, 1), 0));
-    for (const RecordAccess form : {RecordAccess::Texel, RecordAccess::Storage})
+    CHECK(areSame(draw(QuadAccess::Texel, 0, 1000, 0), 0));
+    CHECK(areSame(draw(QuadAccess::Texel, 777, 1000, 0), 777)); // another wave
+    CHECK(areSame(draw(QuadAccess::Storage, 0, 1000, 0), 0));
+    CHECK_FALSE(areSame(draw(QuadAccess::Texel, 0, 1000, 1), 0));
+    for (const QuadAccess form : {QuadAccess::Texel, QuadAccess::Storage})
         CHECK(deviceWith(form).validationMessages() == 0);
 }

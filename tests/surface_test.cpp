@@ -117,7 +117,7 @@ std::vector<glm::uvec4> loadSurfaces(const Scene& scene, const std::vector<Query
         records.push_back(test::toRecord(glm::vec4(q.hit.u, q.hit.v, 0, 0)));
     }
     test::KernelHarness kernel(kernels::scene_load_surface, {{gpu::kConstantTextures, gpu.needs.textures}});
-    const Buffer input = test::recordBuffer(records);
+    const Buffer input = test::quadBuffer(records);
     const gpu::BsdfHarnessParams params{static_cast<uint32_t>(queries.size()), 0, 0, 0};
     return kernel.run({gpu.geometry, gpu.attributes, gpu.materials, gpu.textures, gpu.texels, input}, params,
                       queries.size(), 5 * queries.size());
@@ -143,17 +143,17 @@ TEST_CASE("textures are bilinear, wrapped by texel and decoded before filtering"
                 uses.push_back({m.baseColorTexture, reference::Encoding::Srgb});
                 uses.push_back({m.baseColorTexture, reference::Encoding::Linear});
             }
-    const SceneRecords records = packScene(scene);
+    const PackedScene packed = packScene(scene);
     std::vector<glm::uvec4> queries;
     for (size_t i = 0; i < 20000; ++i) {
         const size_t k = i % uses.size();
         const glm::vec2 uv(12.0 * random.uniform() - 6.0, 12.0 * random.uniform() - 6.0);
-        const glm::uvec4 codes = records.materials[(k / 2) * gpu::kMaterialRecords + 4];
+        const glm::uvec4 codes = packed.materials[(k / 2) * gpu::kMaterialQuads + 4];
         queries.emplace_back(std::bit_cast<glm::uvec2>(uv), k % 2 == 0 ? codes.x : codes.y, 0u);
     }
-    const GpuScene gpu = uploadScene(test::validatedDevice(), records, Bvh{});
+    const GpuScene gpu = uploadScene(test::validatedDevice(), packed, Bvh{});
     test::KernelHarness kernel(kernels::scene_sample_texture);
-    const Buffer input = test::recordBuffer(queries);
+    const Buffer input = test::quadBuffer(queries);
     const gpu::BsdfHarnessParams params{static_cast<uint32_t>(queries.size()), 0, 0, 0};
     const auto results =
         kernel.run({gpu.geometry, gpu.attributes, gpu.materials, gpu.textures, gpu.texels, input}, params,

@@ -40,10 +40,10 @@ struct Hit {
 // A scene on a device, and the two kernels.
 class Tracer {
 public:
-    explicit Tracer(const Scene& scene, RecordAccess records = RecordAccess::Texel)
+    explicit Tracer(const Scene& scene, QuadAccess records = QuadAccess::Texel)
         : device_(deviceWith(records))
         , bvh_(buildBvh(scene))
-        , records_(makeBuffer(device_, "bvh", bvh_.records))
+        , records_(makeBuffer(device_, "bvh", bvh_.quads))
         , closest_(device_, kernels::intersect_closest)
         , shadow_(device_, kernels::intersect_shadow) {}
 
@@ -75,7 +75,7 @@ private:
             queue.push_back(std::bit_cast<glm::uvec4>(glm::vec4(ray.direction, 0.0f)));
             queue.emplace_back(0u);
         }
-        static_assert(gpu::kRayRecords == 3 && gpu::kShadowRayRecords == 3);
+        static_assert(gpu::kRayQuads == 3 && gpu::kShadowRayQuads == 3);
         const auto count = static_cast<uint32_t>(rays.size());
         std::vector<uint32_t> counters(gpu::kCounters, 12345u);
         counters[1] = count;
@@ -293,8 +293,8 @@ TEST_CASE("shadow rays agree with nearest hits") {
 TEST_CASE("records in storage buffers give the same bits as texel views") {
     const Scene scene = triangleSoup(1000, 0.3f, 9);
     const std::vector<Ray> rays = randomRays(5000, 10);
-    Tracer texel(scene, RecordAccess::Texel);
-    Tracer storage(scene, RecordAccess::Storage);
+    Tracer texel(scene, QuadAccess::Texel);
+    Tracer storage(scene, QuadAccess::Storage);
     CHECK(texel.closest(rays) == storage.closest(rays));
     CHECK(texel.visibility(rays) == storage.visibility(rays));
 }
@@ -343,7 +343,7 @@ TEST_CASE("equal triangles hide each other and lose no ray") {
 
 // The CPU driver's vector width is fixed when it starts: the suite runs itself again at the other widths.
 TEST_CASE("subgroups of 4 and 16 lanes", "[widths]") {
-    if (!deviceWith(RecordAccess::Texel).isCpu()) SKIP("the subgroup size is the device's own");
+    if (!deviceWith(QuadAccess::Texel).isCpu()) SKIP("the subgroup size is the device's own");
     for (const char* bits : {"128", "512"}) {
         const std::string self = std::filesystem::read_symlink("/proc/self/exe").string();
         const std::string command =

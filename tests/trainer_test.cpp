@@ -72,7 +72,7 @@ ModelConfig halfModel() {
 } // namespace
 
 TEST_CASE("steps are those of the twin") {
-    const TrainingRecords records = randomRecords(100, 1);
+    const TrainingRecords records = randomQuads(100, 1);
     const std::pair<const char*, ModelConfig> models[] = {
         {"L2", smallModel()},
         {"relative L2", smallModel(R"({"otype": "RelativeL2", "epsilon": 0.05})")},
@@ -99,7 +99,7 @@ TEST_CASE("steps are those of the twin") {
 }
 
 TEST_CASE("a wrong step, loss or record is found") {
-    const TrainingRecords records = randomRecords(100, 1);
+    const TrainingRecords records = randomQuads(100, 1);
     TrainerHarness harness(annealedModel());
     const reference::Training twin = harness.twin();
     constexpr uint32_t kSteps = 5;
@@ -152,7 +152,7 @@ TEST_CASE("a pass uses every record exactly once") {
             if (count > batches * kTrainerBatch) continue;
             INFO(count << " records in " << batches << " batches");
             for (int choice = 0; choice < kChoices; ++choice) {
-                TrainingRecords records = randomRecords(count, 3);
+                TrainingRecords records = randomQuads(count, 3);
                 for (uint32_t i = 0; i < count; ++i) {
                     if (random.uniform() < 0.5) continue;
                     records.targets[size_t{i} * kTrainerOutputs] = NAN;
@@ -172,13 +172,13 @@ TEST_CASE("a pass without usable records changes nothing, bit for bit") {
     TrainerHarness harness(smallGridModel(kEverything));
     for (const bool trained : {false, true}) {
         if (trained)
-            for (int i = 0; i < 3; ++i) harness.train(randomRecords(100, 4));
+            for (int i = 0; i < 3; ++i) harness.train(randomQuads(100, 4));
         const Learned before = harness.learned();
-        harness.train(randomRecords(0, 5));
-        harness.train(randomRecords(0, 5), 3);
+        harness.train(randomQuads(0, 5));
+        harness.train(randomQuads(0, 5), 3);
         CHECK(areSame(harness.learned(), before));
 
-        TrainingRecords unusable = randomRecords(10, 6);
+        TrainingRecords unusable = randomQuads(10, 6);
         for (uint32_t i = 0; i < 10; ++i) unusable.targets[size_t{i} * kTrainerOutputs] = INFINITY;
         harness.train(unusable);
         Learned after = harness.learned();
@@ -191,7 +191,7 @@ TEST_CASE("a pass without usable records changes nothing, bit for bit") {
 }
 
 TEST_CASE("more effort is further passes, and the average follows faster") {
-    const TrainingRecords records = randomRecords(200, 11);
+    const TrainingRecords records = randomQuads(200, 11);
     TrainerHarness once(annealedModel()), more(annealedModel()), twice(annealedModel());
     once.train(records, 2);
     twice.train(records, 2);
@@ -212,7 +212,7 @@ TEST_CASE("more effort is further passes, and the average follows faster") {
 }
 
 TEST_CASE("an effort's learning rate is a factor of the optimizer's") {
-    const TrainingRecords records = randomRecords(200, 12);
+    const TrainingRecords records = randomQuads(200, 12);
     const auto weightsAfter = [&](double configured, double factor) {
         ModelConfig config = smallGridModel();
         config.optimizer.learningRate *= configured;
@@ -226,7 +226,7 @@ TEST_CASE("an effort's learning rate is a factor of the optimizer's") {
 }
 
 TEST_CASE("the means of predictions and targets are those of the usable records") {
-    TrainingRecords records = randomRecords(201, 12);
+    TrainingRecords records = randomQuads(201, 12);
     TrainerHarness harness;
     const std::vector<double> predictions = harness.predict(records, Weights::Raw);
     records.targets[0] = NAN;
@@ -246,7 +246,7 @@ TEST_CASE("the means of predictions and targets are those of the usable records"
 }
 
 TEST_CASE("what pads the last quad of a record is not used") {
-    const TrainingRecords records = randomRecords(100, 7);
+    const TrainingRecords records = randomQuads(100, 7);
     for (const ModelConfig& config : {smallModel(), annealedModel()}) {
         TrainerHarness clean(config, 1, 0.0), padded(config, 1, NAN);
         for (TrainerHarness* harness : {&clean, &padded}) harness->train(records, 2);
@@ -258,7 +258,7 @@ TEST_CASE("what pads the last quad of a record is not used") {
 
 // The harness' trainer predicts 512 rows together.
 TEST_CASE("predictions use the weights asked for, as they are now, in parts where there are many rows") {
-    const TrainingRecords records = randomRecords(1300, 8);
+    const TrainingRecords records = randomQuads(1300, 8);
     TrainerHarness harness(smallGridModel(kEverything));
     const reference::Training twin = harness.twin();
     const auto isThatOf = [&](Weights weights) {
@@ -294,7 +294,7 @@ TEST_CASE("predictions use the weights asked for, as they are now, in parts wher
 }
 
 TEST_CASE("passes that are declared and never executed change nothing") {
-    const TrainingRecords records = randomRecords(256, 1);
+    const TrainingRecords records = randomQuads(256, 1);
     TrainerHarness harness(smallModel(R"({"otype": "L2"})", kEverything)),
         twin(smallModel(R"({"otype": "L2"})", kEverything));
     harness.train(records);
@@ -338,7 +338,7 @@ TEST_CASE("passes that are declared and never executed change nothing") {
 }
 
 TEST_CASE("a function is learned, and each pass shuffles anew") {
-    TrainingRecords records = randomRecords(kTrainerBatch, 9);
+    TrainingRecords records = randomQuads(kTrainerBatch, 9);
     for (uint32_t i = 0; i < records.count(); ++i)
         for (uint32_t o = 0; o < kTrainerOutputs; ++o)
             records.targets[size_t{i} * kTrainerOutputs + o] = 0.5 + 0.4 * records.inputRow(i)[o];
@@ -362,7 +362,7 @@ TEST_CASE("a function is learned, and each pass shuffles anew") {
 
 TEST_CASE("more records than were planned are refused") {
     TrainerHarness harness;
-    const TrainingRecords many = randomRecords(2 * kTrainerBatch + 1, 10);
+    const TrainingRecords many = randomQuads(2 * kTrainerBatch + 1, 10);
     expectError(ExitCode::Internal, "768 records in 2 steps of at most 256", [&] { harness.train(many, 2); });
     expectError(ExitCode::Internal, "0 steps", [&] { harness.train(many, 0); });
     expectError(ExitCode::Internal, "3 parameters to set",

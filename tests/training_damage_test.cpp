@@ -51,7 +51,7 @@ std::vector<size_t> somePlaces(size_t count) {
 } // namespace
 
 TEST_CASE("bad records are dropped and counted, and all others learned from") {
-    const TrainingRecords good = randomRecords(200, 1), mixed = withBadOnes(good);
+    const TrainingRecords good = randomQuads(200, 1), mixed = withBadOnes(good);
     REQUIRE(mixed.count() == 240);
     TrainerHarness harness;
     reference::Training twin = harness.twin();
@@ -70,7 +70,7 @@ TEST_CASE("no bad record leaves a trace in any model") {
     for (const ModelConfig& config :
          {smallModel(R"({"otype": "RelativeL2Luminance"})"), smallGridModel(), inHalf(smallGridModel())}) {
         TrainerHarness harness(config);
-        for (int step = 0; step < 3; ++step) harness.train(withBadOnes(randomRecords(200, 2)), 2);
+        for (int step = 0; step < 3; ++step) harness.train(withBadOnes(randomQuads(200, 2)), 2);
         const Learned learned = harness.learned();
         CHECK(isFinite(learned));
         CHECK(learned.state.droppedRecords == 3 * 40);
@@ -81,7 +81,7 @@ TEST_CASE("no bad record leaves a trace in any model") {
 }
 
 TEST_CASE("bad weights are set to zero and counted, and training goes on") {
-    const TrainingRecords records = randomRecords(100, 3);
+    const TrainingRecords records = randomQuads(100, 3);
     for (const ModelConfig& config : {smallModel(), smallModel(R"({"otype": "RelativeL2"})"),
                                       smallGridModel(), inHalf(smallGridModel())}) {
         TrainerHarness harness(config);
@@ -108,20 +108,20 @@ TEST_CASE("bad weights are set to zero and counted, and training goes on") {
 
 TEST_CASE("bad moments and averages of a loaded model are set to zero and counted") {
     TrainerHarness harness(smallGridModel());
-    harness.train(randomRecords(100, 4));
+    harness.train(randomQuads(100, 4));
     Learned learned = harness.learned();
     learned.firstMoments[3] = NAN;
     learned.secondMoments[40] = INFINITY;
     learned.averages[500] = -INFINITY;
     learned.averages.back() = NAN;
     harness.setLearned(learned);
-    harness.train(randomRecords(100, 5));
+    harness.train(randomQuads(100, 5));
     CHECK(harness.trainer().counts().damagedParameters == 4);
     CHECK(isFinite(harness.learned()));
 }
 
 TEST_CASE("clipped steps are counted") {
-    const TrainingRecords records = randomRecords(100, 6);
+    const TrainingRecords records = randomQuads(100, 6);
     const auto clippedOf = [&](const std::string& limit) {
         TrainerHarness harness(
             smallGridModel(R"({"otype": "Adam", "epsilon": 1e-3, "clip_norm": )" + limit + "}"));
@@ -136,7 +136,7 @@ TEST_CASE("clipped steps are counted") {
 // Where predictions begin near zero, bright targets make the gradients of a relative loss as large as they
 // get: 2 t / 0.01.
 TEST_CASE("bright targets are learned from in half precision too") {
-    TrainingRecords records = randomRecords(100, 7);
+    TrainingRecords records = randomQuads(100, 7);
     for (const double brightest : {30.0, 5e4}) {
         for (size_t i = 0; i < records.targets.size(); i += 7) records.targets[i] = brightest;
         for (const char* loss : {R"({"otype": "RelativeL2Luminance"})", R"({"otype": "L2"})"}) {

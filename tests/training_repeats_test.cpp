@@ -24,7 +24,7 @@ ModelConfig fullModel(Precision precision = Precision::Float) {
 // Several batches a pass, so that their order counts.
 void train(TrainerHarness& harness, int passes, uint64_t firstSeed = 1) {
     for (int pass = 0; pass < passes; ++pass)
-        harness.train(randomRecords(1000, firstSeed + static_cast<uint64_t>(pass)), 4);
+        harness.train(randomQuads(1000, firstSeed + static_cast<uint64_t>(pass)), 4);
 }
 
 } // namespace
@@ -72,7 +72,7 @@ TEST_CASE("a loaded model goes on as if it had never stopped") {
 
     TrainerHarness loaded(fullModel(Precision::Half));
     train(loaded, 1, 77); // what it has learned so far goes
-    const TrainingRecords queries = randomRecords(20, 5);
+    const TrainingRecords queries = randomQuads(20, 5);
     const std::vector<double> before = loaded.predict(queries, Weights::Ema);
     loaded.trainer().load(folder / "model");
     CHECK(areSame(loaded.learned(), stopped.learned()));
@@ -86,7 +86,7 @@ TEST_CASE("a loaded model goes on as if it had never stopped") {
 TEST_CASE("what its owner keeps beside a trainer comes back with it, or is missed by name") {
     const TemporaryFolder folder;
     TrainerHarness harness(smallModel());
-    harness.train(randomRecords(100, 1));
+    harness.train(randomQuads(100, 1));
     const std::vector<float> scale{0.25f, 3.0f};
     ModelFile model("cache");
     model.add<float>("cache state", scale);
@@ -102,7 +102,7 @@ TEST_CASE("what its owner keeps beside a trainer comes back with it, or is misse
     expectError(ExitCode::BadData, "a.model: is a model of kind 'cache', wanted is one of kind 'network'",
                 [&] { other.trainer().load(folder / "a.model"); });
     // Nothing is changed where a block of the trainer's is missing.
-    other.train(randomRecords(100, 2));
+    other.train(randomQuads(100, 2));
     const Learned before = other.learned();
     ModelFile partial("cache");
     partial.addText("shape", other.trainer().shapeName());
@@ -115,7 +115,7 @@ TEST_CASE("what its owner keeps beside a trainer comes back with it, or is misse
 TEST_CASE("a model of another shape, or none, is refused and changes nothing") {
     const TemporaryFolder folder;
     TrainerHarness harness(smallModel());
-    harness.train(randomRecords(100, 1));
+    harness.train(randomQuads(100, 1));
     const Learned before = harness.learned();
     const auto refused = [&](const ModelConfig& other, const std::string& named) {
         Trainer(validatedDevice(), other, kTrainerInputs, kTrainerOutputs, {256, 256, 1, {}})
@@ -143,7 +143,7 @@ TEST_CASE("a model of another shape, or none, is refused and changes nothing") {
     std::vector<uint8_t> bytes = folder.read("own.model");
     bytes.resize(bytes.size() / 2);
     folder.write("own.model", bytes);
-    harness.train(randomRecords(100, 2));
+    harness.train(randomQuads(100, 2));
     const Learned now = harness.learned();
     expectError(ExitCode::BadData, "own.model: the model is cut off",
                 [&] { harness.trainer().load(folder / "own.model"); });

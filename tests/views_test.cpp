@@ -21,7 +21,7 @@ using reference::Vec3;
 namespace {
 
 Device& device() {
-    return deviceWith(RecordAccess::Texel);
+    return deviceWith(QuadAccess::Texel);
 }
 
 // Paths in it end by Russian roulette or at the last bounce alone.

@@ -29,7 +29,7 @@ Buffer::Buffer(Device& device, std::string name, uint64_t bytes, Memory memory)
     if (bytes == 0) fail(ExitCode::Internal, "buffer {}: of no bytes", name_);
     try {
         VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
-        info.size = (bytes + 15) / 16 * 16; // a whole number of records, so that the last one can be viewed
+        info.size = (bytes + 15) / 16 * 16; // a whole number of quads, so that the last one can be viewed
         info.usage = kUsage;
         if (device.features().bufferDeviceAddress) info.usage |= VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
         info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;

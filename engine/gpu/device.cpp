@@ -36,11 +36,11 @@ uint32_t chooseSubgroupSize(const PhysicalDevice& device, uint32_t wanted) {
     return wanted;
 }
 
-bool chooseTexelRecords(const PhysicalDevice& device, RecordAccess records) {
-    if (records == RecordAccess::Texel && !device.texelShortcoming.empty())
-        fail(ExitCode::NoDevice, "{} cannot read records through texel views: {}", device.description.name,
+bool chooseTexelQuads(const PhysicalDevice& device, QuadAccess quads) {
+    if (quads == QuadAccess::Texel && !device.texelShortcoming.empty())
+        fail(ExitCode::NoDevice, "{} cannot read quads through texel views: {}", device.description.name,
              device.texelShortcoming);
-    return records == RecordAccess::Auto ? device.texelShortcoming.empty() : records == RecordAccess::Texel;
+    return quads == QuadAccess::Auto ? device.texelShortcoming.empty() : quads == QuadAccess::Texel;
 }
 
 VkDevice createDevice(const PhysicalDevice& physical) {
@@ -88,7 +88,7 @@ Device::Device(const DeviceOptions& options)
     State& s = *state_;
     s.physical = choose(physicalDevices(s.instance), options.select);
     s.subgroupSize = chooseSubgroupSize(s.physical, options.subgroupSize);
-    s.texelRecords = chooseTexelRecords(s.physical, options.records);
+    s.texelQuads = chooseTexelQuads(s.physical, options.quads);
     s.device = createDevice(s.physical);
     vkGetDeviceQueue(s.device, s.physical.queueFamily, 0, &s.queue);
     VkFenceCreateInfo fence{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
@@ -126,8 +126,8 @@ bool Device::canPinSubgroupSize() const {
 uint32_t Device::maxPinnedWorkgroup() const {
     return state_->physical.maxSubgroups * subgroupSize();
 }
-bool Device::texelRecords() const {
-    return state_->texelRecords;
+bool Device::texelQuads() const {
+    return state_->texelQuads;
 }
 bool Device::runsInOrder() const {
     return state_->physical.isLavapipe && !state_->validation;

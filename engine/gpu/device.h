@@ -9,15 +9,15 @@
 
 namespace irradia {
 
-// How kernels read records: texel views are the fast form on lavapipe; storage buffers serve devices whose
+// How kernels read quads: texel views are the fast form on lavapipe; storage buffers serve devices whose
 // maxTexelBufferElements is too small for a full 128 MiB binding.
-enum class RecordAccess { Auto, Texel, Storage };
+enum class QuadAccess { Auto, Texel, Storage };
 
 struct DeviceOptions {
     std::string select;        // index, part of a name (any case), "cpu", "gpu"; empty = first GPU, else CPU
     bool validation = false;   // core and synchronisation validation; messages are counted and logged
     uint32_t subgroupSize = 0; // 0 = the device's own; else pinned where the device has it, refused otherwise
-    RecordAccess records = RecordAccess::Auto;
+    QuadAccess quads = QuadAccess::Auto;
     double memoryShare = 0.8; // of the device's memory that is there: plans above it are refused
 };
 
@@ -55,7 +55,7 @@ public:
     bool canPinSubgroupSize() const;     // VK_EXT_subgroup_size_control (core in 1.3)
     uint32_t maxPinnedWorkgroup() const; // invocations of a workgroup whose subgroups are pinned
     uint32_t nativeSubgroupSize() const; // of kernels that are not pinned
-    bool texelRecords() const;           // which form of the kernels is used
+    bool texelQuads() const;             // which form of the kernels is used
     const OptionalFeatures& features() const;
     // Each command is done before the next begins: barriers between the passes of a submission change
     // nothing, and are left out, since for each of them lavapipe wakes all threads of its rasteriser (0.1 ms

@@ -18,7 +18,7 @@ struct Device::State {
     Instance instance;
     PhysicalDevice physical;
     uint32_t subgroupSize = 0;
-    bool texelRecords = false;
+    bool texelQuads = false;
     VkDevice device = VK_NULL_HANDLE;
     VkQueue queue = VK_NULL_HANDLE;
     VkFence fence = VK_NULL_HANDLE;

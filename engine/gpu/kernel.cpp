@@ -135,7 +135,7 @@ VkDescriptorSetLayout makeSetLayout(const Device& device, const std::string& wha
 Kernel::Kernel(Device& device, const KernelSource& source, const KernelOptions& options)
     : device_(&device)
     , name_(source.name) {
-    const std::span<const uint32_t> spirv = device.texelRecords() ? source.texel : source.storage;
+    const std::span<const uint32_t> spirv = device.texelQuads() ? source.texel : source.storage;
     Reflection reflection = reflect(name_, spirv);
     const uint32_t subgroup = options.pinSubgroup ? device.subgroupSize() : device.nativeSubgroupSize();
     workgroupSize_ = chooseWorkgroup(device, name_, options);

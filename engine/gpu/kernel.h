@@ -8,7 +8,7 @@
 
 namespace irradia {
 
-// SPIR-V embedded at build time: one GLSL file, compiled with records as texel views and as storage buffers.
+// SPIR-V embedded at build time: one GLSL file, compiled with quads as texel views and as storage buffers.
 struct KernelSource {
     const char* name; // the pass's name: file name without extension
     std::span<const uint32_t> texel;

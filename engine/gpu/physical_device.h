@@ -18,7 +18,7 @@ struct PhysicalDevice {
     uint32_t maxSubgroups = 0;    // of a workgroup of pinned subgroups
     bool memoryBudget = false;    // VK_EXT_memory_budget
     uint64_t maxAllocation = 0;   // bytes of one allocation
-    std::string texelShortcoming; // why records cannot be read through texel views; empty if they can
+    std::string texelShortcoming; // why quads cannot be read through texel views; empty if they can
     uint32_t queueFamily = 0;     // the first with compute
     uint32_t timestampBits = 0;   // of that queue
 };

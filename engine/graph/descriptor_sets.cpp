@@ -15,7 +15,7 @@ void DescriptorSets::reset() {
     for (auto& [types, group] : groups_) group.used = 0;
 }
 
-VkDescriptorSet DescriptorSets::take(const PassRecord& pass) {
+VkDescriptorSet DescriptorSets::take(const DeclaredPass& pass) {
     types_.clear();
     for (const KernelBinding& binding : pass.kernel->bindings()) types_.push_back(binding.type);
     Group& group = groups_[types_];
@@ -24,7 +24,7 @@ VkDescriptorSet DescriptorSets::take(const PassRecord& pass) {
 }
 
 // Twice as many sets as there are.
-void DescriptorSets::grow(Group& group, const PassRecord& pass) {
+void DescriptorSets::grow(Group& group, const DeclaredPass& pass) {
     const std::string what = "descriptors of pass " + pass.name;
     if (group.layout == VK_NULL_HANDLE) group.layout = makeSetLayout(device_, what, pass.kernel->bindings());
     const auto more = static_cast<uint32_t>(std::max<size_t>(group.sets.size(), 1));
@@ -48,7 +48,7 @@ void DescriptorSets::grow(Group& group, const PassRecord& pass) {
     check(vkAllocateDescriptorSets(device_.handle(), &info, group.sets.data() + group.used), what);
 }
 
-VkDescriptorSet DescriptorSets::make(const PassRecord& pass) {
+VkDescriptorSet DescriptorSets::make(const DeclaredPass& pass) {
     const VkDescriptorSet set = take(pass);
     const size_t count = pass.bindings.size();
     writes_.assign(count, {VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET});

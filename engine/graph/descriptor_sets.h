@@ -2,7 +2,7 @@
 // next, and written again: lavapipe maps memory for each that it makes.
 #pragma once
 
-#include "engine/graph/pass_record.h"
+#include "engine/graph/declared_pass.h"
 #include <map>
 
 namespace irradia {
@@ -17,7 +17,7 @@ public:
 
     // An execution begins: none of the sets is in use.
     void reset();
-    VkDescriptorSet make(const PassRecord& pass);
+    VkDescriptorSet make(const DeclaredPass& pass);
 
 private:
     // Sets of one layout, which is compatible with those of all kernels that bind the same types in the same
@@ -30,8 +30,8 @@ private:
     };
     using Types = std::vector<VkDescriptorType>;
 
-    VkDescriptorSet take(const PassRecord& pass);
-    void grow(Group& group, const PassRecord& pass);
+    VkDescriptorSet take(const DeclaredPass& pass);
+    void grow(Group& group, const DeclaredPass& pass);
 
     const Device& device_;
     std::map<Types, Group> groups_;

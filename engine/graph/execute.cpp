@@ -50,7 +50,7 @@ std::vector<ScheduledPass> FrameGraph::State::accesses() const {
     std::vector<ScheduledPass> scheduled;
     ScheduledPass host{"host", {}};
     std::set<const Buffer*> mapped;
-    for (const PassRecord& pass : passes) {
+    for (const DeclaredPass& pass : passes) {
         scheduled.push_back(accessesOf(pass));
         for (const PassBinding& binding : pass.bindings)
             if (binding.range.buffer->isMapped()) mapped.insert(binding.range.buffer);
@@ -65,14 +65,14 @@ std::vector<ScheduledPass> FrameGraph::State::accesses() const {
 
 void FrameGraph::State::numberRuns() {
     std::map<std::string_view, uint32_t> runs;
-    for (PassRecord& pass : passes) pass.run = runs[pass.name]++;
+    for (DeclaredPass& pass : passes) pass.run = runs[pass.name]++;
 }
 
 // A pass is expected to take as long as the same run of its name last took; one that never ran, a whole
 // slice.
 std::vector<size_t> FrameGraph::State::slices() const {
     std::vector<SliceCandidate> candidates;
-    for (const PassRecord& pass : passes) {
+    for (const DeclaredPass& pass : passes) {
         const auto last = lastTimes.find(pass.name);
         const bool known = last != lastTimes.end() && pass.run < last->second.size();
         candidates.push_back({known ? last->second[pass.run] : kSliceMilliseconds, pass.cutBefore});
@@ -80,7 +80,7 @@ std::vector<size_t> FrameGraph::State::slices() const {
     return sliceStarts(candidates, kSliceMilliseconds);
 }
 
-void FrameGraph::State::record(const PassRecord& pass) {
+void FrameGraph::State::record(const DeclaredPass& pass) {
     if (beginLabel) {
         VkDebugUtilsLabelEXT label{VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT};
         label.pLabelName = pass.name.c_str();
@@ -96,23 +96,23 @@ void FrameGraph::State::record(const PassRecord& pass) {
                                pass.pushBytes, pass.push.data());
     }
     switch (pass.command) {
-    case PassRecord::Command::None:
+    case DeclaredPass::Command::None:
         break;
-    case PassRecord::Command::Dispatch:
+    case DeclaredPass::Command::Dispatch:
         vkCmdDispatch(commands, pass.groups, 1, 1);
         break;
-    case PassRecord::Command::DispatchIndirect:
+    case DeclaredPass::Command::DispatchIndirect:
         vkCmdDispatchIndirect(commands, pass.argument->buffer->handle(), pass.argument->offset);
         break;
-    case PassRecord::Command::Fill:
+    case DeclaredPass::Command::Fill:
         vkCmdFillBuffer(commands, pass.target->buffer->handle(), pass.target->offset, pass.target->bytes,
                         pass.value);
         break;
-    case PassRecord::Command::Update:
+    case DeclaredPass::Command::Update:
         vkCmdUpdateBuffer(commands, pass.target->buffer->handle(), pass.target->offset, pass.target->bytes,
                           pass.content.data());
         break;
-    case PassRecord::Command::Copy: {
+    case DeclaredPass::Command::Copy: {
         const VkBufferCopy region{pass.argument->offset, pass.target->offset, pass.target->bytes};
         vkCmdCopyBuffer(commands, pass.argument->buffer->handle(), pass.target->buffer->handle(), 1, &region);
         break;
@@ -149,7 +149,7 @@ void FrameGraph::State::finish(const Slice& slice) {
 void FrameGraph::State::keepTimes(size_t first) {
     const std::vector<double> times = timestamps.milliseconds();
     for (size_t i = 0; i < times.size(); ++i) {
-        const PassRecord& pass = passes[first + i];
+        const DeclaredPass& pass = passes[first + i];
         std::vector<double>& last = lastTimes[pass.name];
         last.resize(std::max<size_t>(last.size(), pass.run + 1));
         last[pass.run] = times[i];
@@ -158,7 +158,7 @@ void FrameGraph::State::keepTimes(size_t first) {
 }
 
 void FrameGraph::State::submitAll() {
-    if (passes.back().command == PassRecord::Command::None)
+    if (passes.back().command == DeclaredPass::Command::None)
         fail(ExitCode::Internal, "pass {}: is declared but never dispatched", passes.back().name);
 
     const std::vector<Barrier> barriers = schedule(accesses());
@@ -184,7 +184,8 @@ void FrameGraph::State::submitAll() {
 }
 
 void FrameGraph::State::requireIdle(const std::string& what) const {
-    if (isSubmitted) fail(ExitCode::Internal, "{}: what was submitted before is to be waited for first", what);
+    if (isSubmitted)
+        fail(ExitCode::Internal, "{}: what was submitted before is to be waited for first", what);
 }
 
 // Whatever happened, the next frame starts with an empty graph.

@@ -27,11 +27,11 @@ uint64_t FrameGraph::State::nextList() {
     return ++last;
 }
 
-PassRecord& FrameGraph::State::add(const std::string& name) {
+DeclaredPass& FrameGraph::State::add(const std::string& name) {
     requireIdle("pass " + name);
-    if (!passes.empty() && passes.back().command == PassRecord::Command::None)
+    if (!passes.empty() && passes.back().command == DeclaredPass::Command::None)
         fail(ExitCode::Internal, "pass {}: is declared but never dispatched", passes.back().name);
-    PassRecord& pass = passes.emplace_back();
+    DeclaredPass& pass = passes.emplace_back();
     pass.name = section.empty() ? name : section + "/" + name;
     pass.cutBefore = cutNext;
     cutNext = false;
@@ -39,7 +39,7 @@ PassRecord& FrameGraph::State::add(const std::string& name) {
 }
 
 void FrameGraph::State::end(size_t index) {
-    PassRecord pass = std::move(passes.at(index));
+    DeclaredPass pass = std::move(passes.at(index));
     passes.resize(index); // a pass that is refused or has nothing to do is left out
     checkAgainstKernel(pass, device);
     const uint32_t most = device.limits().maxComputeWorkGroupCount[0];
@@ -48,7 +48,7 @@ void FrameGraph::State::end(size_t index) {
              "pass {}: {} workgroups of {} are more than the device's {}: dispatch parts, or enlarge the "
              "workgroups",
              pass.name, pass.groups, pass.kernel->workgroupSize(), most);
-    if (pass.command == PassRecord::Command::Dispatch && pass.groups == 0)
+    if (pass.command == DeclaredPass::Command::Dispatch && pass.groups == 0)
         cutNext = pass.cutBefore;
     else
         passes.push_back(std::move(pass));
@@ -67,8 +67,8 @@ Pass FrameGraph::pass(const Kernel& kernel, const std::string& name) {
 
 void FrameGraph::fill(BufferRange range, uint32_t value) {
     checkTransfer("fill", range);
-    PassRecord& pass = state_->add("fill");
-    pass.command = PassRecord::Command::Fill;
+    DeclaredPass& pass = state_->add("fill");
+    pass.command = DeclaredPass::Command::Fill;
     pass.target = range;
     pass.value = value;
 }
@@ -82,8 +82,8 @@ void FrameGraph::copy(BufferRange from, BufferRange to) {
     if (from.buffer == to.buffer && from.offset < to.offset + to.bytes &&
         to.offset < from.offset + from.bytes)
         fail(ExitCode::Internal, "copy: the ranges overlap in buffer {}", from.buffer->name());
-    PassRecord& pass = state_->add("copy");
-    pass.command = PassRecord::Command::Copy;
+    DeclaredPass& pass = state_->add("copy");
+    pass.command = DeclaredPass::Command::Copy;
     pass.argument = from;
     pass.target = to;
 }
@@ -93,8 +93,8 @@ void FrameGraph::updateBytes(BufferRange range, std::span<const std::byte> bytes
     if (range.bytes != bytes.size())
         fail(ExitCode::Internal, "update: {} bytes of buffer {} from {}", range.bytes, range.buffer->name(),
              bytes.size());
-    PassRecord& pass = state_->add("update");
-    pass.command = PassRecord::Command::Update;
+    DeclaredPass& pass = state_->add("update");
+    pass.command = DeclaredPass::Command::Update;
     pass.target = range;
     pass.content.assign(bytes.begin(), bytes.end());
 }
@@ -143,14 +143,14 @@ Pass& Pass::bind(BufferRange range, bool read, bool write) {
 }
 
 Pass& Pass::pushBytes(std::span<const std::byte> bytes) {
-    PassRecord& pass = graph_.state_->passes[index_];
+    DeclaredPass& pass = graph_.state_->passes[index_];
     std::memcpy(pass.push.data(), bytes.data(), bytes.size());
     pass.pushBytes = static_cast<uint32_t>(bytes.size());
     return *this;
 }
 
 void Pass::dispatch(uint64_t items) {
-    const PassRecord& pass = graph_.state_->passes[index_];
+    const DeclaredPass& pass = graph_.state_->passes[index_];
     const uint64_t size = pass.kernel->workgroupSize();
     const uint64_t groups = items / size + (items % size != 0);
     if (groups > UINT32_MAX) fail(ExitCode::Internal, "pass {}: {} items are too many", pass.name, items);
@@ -158,19 +158,19 @@ void Pass::dispatch(uint64_t items) {
 }
 
 void Pass::dispatchGroups(uint32_t groups) {
-    PassRecord& pass = graph_.state_->passes[index_];
-    pass.command = PassRecord::Command::Dispatch;
+    DeclaredPass& pass = graph_.state_->passes[index_];
+    pass.command = DeclaredPass::Command::Dispatch;
     pass.groups = groups;
     graph_.state_->end(index_);
 }
 
 void Pass::dispatchIndirect(BufferRange arguments) {
-    PassRecord& pass = graph_.state_->passes[index_];
+    DeclaredPass& pass = graph_.state_->passes[index_];
     checkTransfer("dispatchIndirect", arguments);
     if (arguments.bytes < 3 * sizeof(uint32_t))
         fail(ExitCode::Internal, "pass {}: buffer {} holds no three group counts", pass.name,
              arguments.buffer->name());
-    pass.command = PassRecord::Command::DispatchIndirect;
+    pass.command = DeclaredPass::Command::DispatchIndirect;
     pass.argument = arguments;
     graph_.state_->end(index_);
 }

@@ -1,8 +1,8 @@
 // What a FrameGraph holds: the passes declared so far and what submits them.
 #pragma once
 
+#include "engine/graph/declared_pass.h"
 #include "engine/graph/descriptor_sets.h"
-#include "engine/graph/pass_record.h"
 #include "engine/graph/progress.h"
 #include "engine/graph/timestamps.h"
 #include <map>
@@ -25,7 +25,7 @@ struct FrameGraph::State {
     ~State();
 
     static uint64_t nextList();
-    PassRecord& add(const std::string& name);
+    DeclaredPass& add(const std::string& name);
     void end(size_t index); // the pass is complete: checks it
     std::vector<ScheduledPass> accesses() const;
     void numberRuns();
@@ -33,7 +33,7 @@ struct FrameGraph::State {
     void submitAll();
     void requireIdle(const std::string& what) const; // throws where a submission is to be waited for
     void clear();
-    void record(const PassRecord& pass);
+    void record(const DeclaredPass& pass);
     void beginSubmission(uint32_t passCount);
     void submit(const Slice& slice);
     void finish(const Slice& slice); // waits for it, and keeps its times
@@ -42,11 +42,11 @@ struct FrameGraph::State {
     Device& device;
     Profiler* profiler;
     double timeoutSeconds;
-    std::vector<PassRecord> passes;
+    std::vector<DeclaredPass> passes;
     bool cutNext = false;
     bool isSubmitted = false;      // and not waited for
     std::optional<Slice> inFlight; // the last slice of these passes
-    uint64_t list = nextList(); // number of these passes
+    uint64_t list = nextList();    // number of these passes
     std::vector<std::function<void()>> whenExecuted;
     std::string section; // of the passes to come
     DescriptorSets sets;

@@ -25,10 +25,10 @@ uint32_t WaveBuffers::largestWave(bool isCpu, const PathTracerOptions& options) 
 
 std::vector<Device::PlannedBuffer> WaveBuffers::planned(bool isCpu, const PathTracerOptions& options) {
     const uint64_t wave = largestWave(isCpu, options);
-    return {{"ray queue", wave * gpu::kRayRecords * 16},
-            {"next ray queue", wave * gpu::kRayRecords * 16},
+    return {{"ray queue", wave * gpu::kRayQuads * 16},
+            {"next ray queue", wave * gpu::kRayQuads * 16},
             {"hits", wave * 16},
-            {"shadow ray queue", wave * gpu::kShadowRayRecords * 16},
+            {"shadow ray queue", wave * gpu::kShadowRayQuads * 16},
             {"visibility", wave * 4},
             {"path states", options.kernels.keepsPathStates ? wave * 16 : kUnused},
             {"path radiance", wave * 16},

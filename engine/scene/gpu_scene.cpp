@@ -1,46 +1,45 @@
 #include "engine/scene/gpu_scene.h"
 
 #include "engine/error.h"
-#include "engine/scene/lights/light_records.h"
+#include "engine/scene/lights/packed_lights.h"
 #include "engine/scene/reflectance_table.h"
 #include <algorithm>
 
 namespace irradia {
 
-std::vector<Device::PlannedBuffer> plannedBuffers(const SceneRecords& records, const Bvh& bvh) {
+std::vector<Device::PlannedBuffer> plannedBuffers(const PackedScene& packed, const Bvh& bvh) {
     const auto bytes = [](const auto& v) { return uint64_t(v.size() * sizeof(v[0])); };
-    return {
-        {"bvh", bytes(bvh.records)},
-        {"geometry", bytes(records.geometry)},
-        {"attributes", bytes(records.attributes)},
-        {"texels", bytes(records.texels)},
-        {"environment", bytes(records.environment) + bytes(records.environmentAlias)},
-        {"materials and lights", bytes(records.materials) + bytes(records.textures) + bytes(records.lights)},
-        {"area table", bytes(records.areaTable)}};
+    return {{"bvh", bytes(bvh.quads)},
+            {"geometry", bytes(packed.geometry)},
+            {"attributes", bytes(packed.attributes)},
+            {"texels", bytes(packed.texels)},
+            {"environment", bytes(packed.environment) + bytes(packed.environmentAlias)},
+            {"materials and lights", bytes(packed.materials) + bytes(packed.textures) + bytes(packed.lights)},
+            {"area table", bytes(packed.areaTable)}};
 }
 
-GpuScene uploadScene(Device& device, const SceneRecords& records, const Bvh& bvh) {
+GpuScene uploadScene(Device& device, const PackedScene& packed, const Bvh& bvh) {
     GpuScene scene;
-    scene.bvh = makeBuffer(device, "bvh", bvh.records);
-    scene.geometry = makeBuffer(device, "geometry", records.geometry);
-    scene.attributes = makeBuffer(device, "attributes", records.attributes);
-    scene.materials = makeBuffer(device, "materials", records.materials);
-    scene.textures = makeBuffer(device, "textures", records.textures);
-    scene.texels = makeBuffer(device, "texels", records.texels);
-    scene.lights = makeBuffer(device, "lights", records.lights);
-    scene.environment = makeBuffer(device, "environment", records.environment);
-    scene.environmentAlias = makeBuffer(device, "environment alias table", records.environmentAlias);
-    if (!records.areaTable.empty()) scene.areaTable = makeBuffer(device, "area table", records.areaTable);
+    scene.bvh = makeBuffer(device, "bvh", bvh.quads);
+    scene.geometry = makeBuffer(device, "geometry", packed.geometry);
+    scene.attributes = makeBuffer(device, "attributes", packed.attributes);
+    scene.materials = makeBuffer(device, "materials", packed.materials);
+    scene.textures = makeBuffer(device, "textures", packed.textures);
+    scene.texels = makeBuffer(device, "texels", packed.texels);
+    scene.lights = makeBuffer(device, "lights", packed.lights);
+    scene.environment = makeBuffer(device, "environment", packed.environment);
+    scene.environmentAlias = makeBuffer(device, "environment alias table", packed.environmentAlias);
+    if (!packed.areaTable.empty()) scene.areaTable = makeBuffer(device, "area table", packed.areaTable);
     scene.reflectanceTable = makeBuffer(device, "reflectance table", buildReflectanceTable());
-    scene.needs = records.needs;
-    scene.origin = records.origin;
-    scene.triangles = static_cast<uint32_t>(records.geometry.size() / gpu::kGeometryRecords);
+    scene.needs = packed.needs;
+    scene.origin = packed.origin;
+    scene.triangles = static_cast<uint32_t>(packed.geometry.size() / gpu::kGeometryQuads);
     scene.bvhRoot = bvh.root;
-    scene.lightCount = records.lightCount;
-    scene.environmentWidth = std::max(records.environmentWidth, 1u);
-    scene.environmentHeight = std::max(records.environmentHeight, 1u);
-    scene.environmentProbability = records.environmentProbability;
-    scene.states = records.states;
+    scene.lightCount = packed.lightCount;
+    scene.environmentWidth = std::max(packed.environmentWidth, 1u);
+    scene.environmentHeight = std::max(packed.environmentHeight, 1u);
+    scene.environmentProbability = packed.environmentProbability;
+    scene.states = packed.states;
     return scene;
 }
 
@@ -56,12 +55,11 @@ void requirePlanned(const Scene& state, const GpuScene& scene) {
 }
 
 void updateMaterials(Device& device, const Scene& state, GpuScene& scene) {
-    auto records =
-        download<glm::uvec4>(device, scene.materials, state.materials.size() * gpu::kMaterialRecords);
+    auto quads = download<glm::uvec4>(device, scene.materials, state.materials.size() * gpu::kMaterialQuads);
     for (size_t i = 0; i < state.materials.size(); ++i)
         std::ranges::copy(packMaterialValues(state.materials[i]),
-                          records.begin() + static_cast<std::ptrdiff_t>(i * gpu::kMaterialRecords));
-    upload<glm::uvec4>(device, scene.materials, records);
+                          quads.begin() + static_cast<std::ptrdiff_t>(i * gpu::kMaterialQuads));
+    upload<glm::uvec4>(device, scene.materials, quads);
 }
 
 } // namespace
@@ -69,16 +67,16 @@ void updateMaterials(Device& device, const Scene& state, GpuScene& scene) {
 void updateScene(Device& device, const Scene& state, GpuScene& scene) {
     requirePlanned(state, scene);
     if (!state.materials.empty()) updateMaterials(device, state, scene);
-    const LightRecords lights = packLights(state, scene.states.emitters);
-    if (lights.count > 0) upload<glm::uvec4>(device, scene.lights, lights.records);
+    const PackedLights lights = packLights(state, scene.states.emitters);
+    if (lights.count > 0) upload<glm::uvec4>(device, scene.lights, lights.quads);
     scene.environmentProbability = environmentProbability(state, scene.needs);
     if (!scene.needs.environment) return;
-    SceneRecords records;
-    packEnvironment(state.environment, records);
-    scene.environment = makeBuffer(device, "environment", records.environment);
-    scene.environmentAlias = makeBuffer(device, "environment alias table", records.environmentAlias);
-    scene.environmentWidth = records.environmentWidth;
-    scene.environmentHeight = records.environmentHeight;
+    PackedScene packed;
+    packEnvironment(state.environment, packed);
+    scene.environment = makeBuffer(device, "environment", packed.environment);
+    scene.environmentAlias = makeBuffer(device, "environment alias table", packed.environmentAlias);
+    scene.environmentWidth = packed.environmentWidth;
+    scene.environmentHeight = packed.environmentHeight;
 }
 
 } // namespace irradia

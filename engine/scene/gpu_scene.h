@@ -1,9 +1,9 @@
-// A scene in GPU buffers: the records of shaders/shared/scene.h and the acceleration structure.
+// A scene in GPU buffers: the quads of shaders/shared/scene.h and the acceleration structure.
 #pragma once
 
 #include "engine/gpu/buffer.h"
 #include "engine/scene/bvh/bvh.h"
-#include "engine/scene/scene_records.h"
+#include "engine/scene/packed_scene.h"
 
 namespace irradia {
 
@@ -32,9 +32,9 @@ struct GpuScene {
 };
 
 // The bytes uploadScene will allocate, for Device::plan.
-std::vector<Device::PlannedBuffer> plannedBuffers(const SceneRecords& records, const Bvh& bvh);
+std::vector<Device::PlannedBuffer> plannedBuffers(const PackedScene& packed, const Bvh& bvh);
 
-GpuScene uploadScene(Device& device, const SceneRecords& records, const Bvh& bvh);
+GpuScene uploadScene(Device& device, const PackedScene& packed, const Bvh& bvh);
 
 // Brings a scene on the device to another state of its materials' values (colours, roughness, emission; not
 // their textures) and of its environment: lights get their new powers, the needs stay. Between graph

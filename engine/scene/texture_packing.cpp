@@ -65,8 +65,8 @@ uint32_t TexturePacker::add(const TextureRef& use, bool srgb) {
     return entry->second << 1 | static_cast<uint32_t>(use.uvSet & 1);
 }
 
-void TexturePacker::pack(uint64_t maxTexels, std::vector<glm::uvec4>& records,
-                         std::vector<glm::uvec2>& texels, std::vector<std::string>& warnings) const {
+void TexturePacker::pack(uint64_t maxTexels, std::vector<glm::uvec4>& quads, std::vector<glm::uvec2>& texels,
+                         std::vector<std::string>& warnings) const {
     std::map<std::pair<int, bool>, int> halvings; // of each stored picture
     for (const Use& use : uses_) halvings[{use.image, use.srgb}] = 0;
     const auto texelCount = [&](const std::pair<int, bool>& key, int times) {
@@ -97,7 +97,7 @@ void TexturePacker::pack(uint64_t maxTexels, std::vector<glm::uvec4>& records,
     }
     for (const Use& use : uses_) {
         const Placed& p = placed.at({use.image, use.srgb});
-        records.emplace_back(p.first, p.width, p.height, uint32_t(use.wrapS) | uint32_t(use.wrapT) << 2);
+        quads.emplace_back(p.first, p.width, p.height, uint32_t(use.wrapS) | uint32_t(use.wrapT) << 2);
     }
 }
 

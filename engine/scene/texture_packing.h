@@ -15,12 +15,12 @@ public:
     explicit TexturePacker(const Scene& scene)
         : scene_(scene) {}
 
-    // The material's code for a texture: record index << 1 | uv set, or gpu::kNoTexture.
+    // The material's code for a texture: quad index << 1 | uv set, or gpu::kNoTexture.
     uint32_t add(const TextureRef& use, bool srgb);
 
-    // Writes the texture records and all texels. Where they exceed maxTexels the largest pictures are halved
+    // Writes the texture quads and all texels. Where they exceed maxTexels the largest pictures are halved
     // (box filter) until they fit; each is named in `warnings`.
-    void pack(uint64_t maxTexels, std::vector<glm::uvec4>& records, std::vector<glm::uvec2>& texels,
+    void pack(uint64_t maxTexels, std::vector<glm::uvec4>& quads, std::vector<glm::uvec2>& texels,
               std::vector<std::string>& warnings) const;
 
 private:

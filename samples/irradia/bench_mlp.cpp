@@ -102,7 +102,7 @@ void compileTimes(const BenchMlpOptions& options, const std::vector<MlpGroup>& g
 }
 
 void benchMlp(BenchMlpOptions options) {
-    options.device.records = kernelForm(options.form).access;
+    options.device.quads = kernelForm(options.form).access;
     if (options.isQuick) options.rounds = std::min(options.rounds, kQuickRounds);
     const std::vector<MlpGroup> groups = groupsOf(options);
     checkOutputs({{"--json", options.json}}, {});

@@ -73,7 +73,7 @@ public:
 
 private:
     static std::vector<glm::uvec4> queue(const std::vector<BenchRay>& rays) {
-        static_assert(gpu::kRayRecords == 3 && gpu::kShadowRayRecords == 3);
+        static_assert(gpu::kRayQuads == 3 && gpu::kShadowRayQuads == 3);
         std::vector<glm::uvec4> records;
         for (const BenchRay& ray : rays) {
             records.push_back(std::bit_cast<glm::uvec4>(glm::vec4(ray.origin, ray.tMax)));
@@ -165,7 +165,7 @@ nlohmann::ordered_json jsonOf(const std::vector<RayKind*>& kinds, const Device& 
 
 void benchRays(BenchRaysOptions options) {
     const glm::uvec2 size = parseSize(options.size);
-    options.device.records = kernelForm(options.form).access;
+    options.device.quads = kernelForm(options.form).access;
     checkOutputs({{"--json", options.json}}, {{"the scene", options.scene}, {"the camera", options.camera}});
     catchInterrupts();
     const Scene scene = loadScene(sceneFile(options));
@@ -179,7 +179,7 @@ void benchRays(BenchRaysOptions options) {
 
     const BenchRaySets sets = makeRaySets(scene, chooseCamera(scene, options.camera).camera, size, embree);
     if (sets.bounce.empty()) fail(ExitCode::BadData, "{}: the camera sees nothing", scene.name);
-    const Buffer records = makeBuffer(device, "bvh", bvh.records);
+    const Buffer records = makeBuffer(device, "bvh", bvh.quads);
     const Kernel closest(device, kernels::intersect_closest);
     const Kernel shadow(device, kernels::intersect_shadow);
     RayKind primary{"primary", sets.primary, false, {device, closest, records, bvh.root, sets.primary}};

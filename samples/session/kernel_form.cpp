@@ -12,8 +12,8 @@ struct Named {
 };
 constexpr Named kForms[] = {
     {"auto", {}},
-    {"texel", {.access = RecordAccess::Texel}},
-    {"storage", {.access = RecordAccess::Storage}},
+    {"texel", {.access = QuadAccess::Texel}},
+    {"storage", {.access = QuadAccess::Storage}},
     {"subgroup", {.network = NetworkForm::Subgroup}},
     {"workgroup", {.network = NetworkForm::Workgroup}},
 };
@@ -33,7 +33,7 @@ KernelForm kernelForm(const std::string& name) {
 }
 
 const char* accessName(const Device& device) {
-    return device.texelRecords() ? "texel" : "storage";
+    return device.texelQuads() ? "texel" : "storage";
 }
 
 } // namespace irradia

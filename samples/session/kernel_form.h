@@ -10,7 +10,7 @@
 namespace irradia {
 
 struct KernelForm {
-    RecordAccess access = RecordAccess::Auto;
+    QuadAccess access = QuadAccess::Auto;
     NetworkForm network = NetworkForm::Auto; // Auto: as it is configured
 };
 

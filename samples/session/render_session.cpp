@@ -84,7 +84,7 @@ RenderSession::RenderSession(const RenderRequest& request)
     , view_(findView(request.view))
     , setup_(method_->setup(methodRequest()))
     , reference_(loadReference(view_, request.reference, request.size)) {
-    request_.device.records = kernelForm(request.form).access;
+    request_.device.quads = kernelForm(request.form).access;
     device_ = std::make_unique<Device>(request_.device);
     requireRoomForPicture(*device_, *setup_);
 
@@ -131,19 +131,19 @@ void RenderSession::step() const {
 
 // Onto the device, where it and the renderer's buffers fit.
 void RenderSession::openScene() {
-    SceneRecords records = packScene(scene_, changes_.states(scene_));
-    if (setup_->needsAreaTable()) packAreaTable(records);
+    PackedScene packed = packScene(scene_, changes_.states(scene_));
+    if (setup_->needsAreaTable()) packAreaTable(packed);
     if (!request_.heading.empty()) logLine("{}", request_.heading);
-    reportScene(request_, scene_, records.warnings);
+    reportScene(request_, scene_, packed.warnings);
     logLine("device {} ({}), subgroups of {}, {} quads", device_->description().name,
             device_->description().driver, device_->subgroupSize(), accessName(*device_));
     step();
     const Bvh bvh = buildBvh(scene_);
     step();
-    auto plan = plannedBuffers(records, bvh);
+    auto plan = plannedBuffers(packed, bvh);
     for (auto& buffer : pictureBuffers(*device_, *setup_)) plan.push_back(std::move(buffer));
     device_->plan(plan);
-    gpuScene_ = uploadScene(*device_, records, bvh);
+    gpuScene_ = uploadScene(*device_, packed, bvh);
 }
 
 void RenderSession::createRenderer() {

@@ -12,8 +12,8 @@
 // with this frame, what was learned stays.
 #pragma once
 
+#include "engine/scene/packed_scene.h"
 #include "engine/scene/scene.h"
-#include "engine/scene/scene_records.h"
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>

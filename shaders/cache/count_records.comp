@@ -7,7 +7,7 @@
 #include "shared/cache.h"
 
 COUNTERS(0, counters);
-RECORDS_READ(1, pathSums);
+QUADS_READ(1, pathSums);
 WORDS_WRITE(2, firstRecords);
 layout(set = 0, binding = 3, std430) buffer State { CacheState cacheState; };
 layout(push_constant) uniform Push { RecordsParams params; };
@@ -44,7 +44,7 @@ void main() {
     uint count = 0u, light = 0u;
     float sum = 0.0, most = 0.0;
     for (uint path = begin; path < end; ++path) {
-        uvec4 s = loadRecord(pathSums, path);
+        uvec4 s = loadQuad(pathSums, path);
         count += s.x;
         sum += uintBitsToFloat(s.y);
         most = max(most, uintBitsToFloat(s.z));
@@ -75,6 +75,6 @@ void main() {
     uint first = counts[lane];
     for (uint path = begin; path < end; ++path) {
         storeWord(firstRecords, path, first);
-        first += loadRecord(pathSums, path).x;
+        first += loadQuad(pathSums, path).x;
     }
 }

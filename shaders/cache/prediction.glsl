@@ -3,8 +3,8 @@
 
 // Reflectance alpha + beta of a row of inputs (shared/cache_inputs.h).
 #define REFLECTANCE(rows, row)                                                                                   \
-    cacheReflectance(uintBitsToFloat(loadRecord(rows, quadIndex(row, 2u, kCacheInputQuads))),                    \
-                     uintBitsToFloat(loadRecord(rows, quadIndex(row, 3u, kCacheInputQuads))))
+    cacheReflectance(uintBitsToFloat(loadQuad(rows, quadIndex(row, 2u, kCacheInputQuads))),                    \
+                     uintBitsToFloat(loadQuad(rows, quadIndex(row, 3u, kCacheInputQuads))))
 
 // Below it a reflectance divides nothing: what such a channel scatters is not learned.
 const float kMinReflectance = 1e-3;

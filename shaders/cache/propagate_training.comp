@@ -8,11 +8,11 @@
 COUNTERS(0, counters);
 layout(set = 0, binding = 1, std430) readonly buffer TrainingPaths { uvec4 trainingPaths[]; };
 layout(set = 0, binding = 2, std430) buffer TrainingVertices { vec4 trainingVertices[]; };
-RECORDS_READ(3, queries); // of the training paths
-RECORDS_READ(4, results);
+QUADS_READ(3, queries); // of the training paths
+QUADS_READ(4, results);
 layout(set = 0, binding = 5, std430) readonly buffer State { CacheState cacheState; };
 // Per path: records (uint), of the targets' luminance the roots' sum and the largest, 1 (uint) if it has gathered light.
-RECORDS_WRITE(6, pathSums);
+QUADS_WRITE(6, pathSums);
 layout(push_constant) uniform Push { RecordsParams params; };
 #include "cache/prediction.glsl"
 
@@ -24,7 +24,7 @@ void main() {
     bool endsInCache = trainingPaths[path * kTrainingPathVectors + 1u].w != 0u;
     if (endsInCache && cacheState.frames > 0u) { // before, the cache knows nothing
         vec3 factor = REFLECTANCE(queries, path);
-        l = toRadiance(uintBitsToFloat(loadRecord(results, path).rgb), params.factorise != 0u ? factor : vec3(1.0));
+        l = toRadiance(uintBitsToFloat(loadQuad(results, path).rgb), params.factorise != 0u ? factor : vec3(1.0));
     }
     float rootSum = 0.0, largest = 0.0;
     bool gathers = false;
@@ -38,5 +38,5 @@ void main() {
         rootSum += y >= 0.0 && y < 1e15 ? sqrt(y) : 0.0; // what is not finite the trainer drops and counts
         largest = max(largest, y);
     }
-    storeRecord(pathSums, path, uvec4(vertices, floatBitsToUint(rootSum), floatBitsToUint(largest), gathers ? 1u : 0u));
+    storeQuad(pathSums, path, uvec4(vertices, floatBitsToUint(rootSum), floatBitsToUint(largest), gathers ? 1u : 0u));
 }

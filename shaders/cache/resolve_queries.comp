@@ -6,9 +6,9 @@
 #include "shared/network.h"
 
 COUNTERS(0, counters);
-RECORDS_READ(1, queries);
-RECORDS_READ(2, queryWeights);
-RECORDS_READ(3, results);
+QUADS_READ(1, queries);
+QUADS_READ(2, queryWeights);
+QUADS_READ(3, results);
 layout(set = 0, binding = 4, std430) readonly buffer State { CacheState cacheState; };
 layout(set = 0, binding = 5, std430) buffer Radiance { vec4 radiance[]; };
 layout(push_constant) uniform Push { ResolveParams params; };
@@ -17,8 +17,8 @@ layout(push_constant) uniform Push { ResolveParams params; };
 void main() {
     uint row = gl_GlobalInvocationID.x;
     if (row >= counters[kQueryCounter]) return;
-    uvec4 target = loadRecord(queryWeights, row);
+    uvec4 target = loadQuad(queryWeights, row);
     vec3 factor = REFLECTANCE(queries, row);
-    vec3 predicted = toRadiance(uintBitsToFloat(loadRecord(results, row).rgb), params.factorise != 0u ? factor : vec3(1.0));
+    vec3 predicted = toRadiance(uintBitsToFloat(loadQuad(results, row).rgb), params.factorise != 0u ? factor : vec3(1.0));
     radiance[target.w].rgb += uintBitsToFloat(target.rgb) * predicted;
 }

@@ -8,19 +8,19 @@
 #include "shared/network.h"
 
 COUNTERS(0, counters);
-RECORDS_READ(1, pathSums);
+QUADS_READ(1, pathSums);
 WORDS_READ(2, firstRecords);
 layout(set = 0, binding = 3, std430) readonly buffer TrainingVertices { vec4 trainingVertices[]; };
 layout(set = 0, binding = 4, std430) readonly buffer State { CacheState cacheState; };
-RECORDS_WRITE(5, inputs);
-RECORDS_WRITE(6, targets);
+QUADS_WRITE(5, inputs);
+QUADS_WRITE(6, targets);
 layout(push_constant) uniform Push { RecordsParams params; };
 #include "cache/prediction.glsl"
 
 void main() {
     uint path = gl_GlobalInvocationID.x / kMaxTrainingVertices;
     uint vertex = gl_GlobalInvocationID.x % kMaxTrainingVertices;
-    if (path >= params.paths || vertex >= loadRecord(pathSums, path).x) return;
+    if (path >= params.paths || vertex >= loadQuad(pathSums, path).x) return;
     uint record = loadWord(firstRecords, path) + vertex;
     uint kept = counters[kRecordCounter], wanted = kept + counters[kSkippedRecords];
     if (kept < wanted) {
@@ -32,9 +32,9 @@ void main() {
     vec4 quads[kCacheInputQuads];
     [[unroll]] for (uint q = 0u; q < kCacheInputQuads; ++q) {
         quads[q] = trainingVertices[at + q];
-        storeRecord(inputs, quadIndex(record, q, kCacheInputQuads), floatBitsToUint(quads[q]));
+        storeQuad(inputs, quadIndex(record, q, kCacheInputQuads), floatBitsToUint(quads[q]));
     }
     vec3 factor = params.factorise != 0u ? cacheReflectance(quads[2], quads[3]) : vec3(1.0);
     vec3 target = toTarget(trainingVertices[at + kGathered].rgb, factor);
-    storeRecord(targets, record, floatBitsToUint(vec4(target, 0.0)));
+    storeQuad(targets, record, floatBitsToUint(vec4(target, 0.0)));
 }

@@ -1,12 +1,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variant accumulate_grid_gradient_half QUADS_IN_HALF
+#pragma variant accumulate_grid_gradient_half VALUES_IN_HALF
 // Adds each row's gradient by the encoded values, times the corners' weights, to the features' sums. Sums are exact modulo
 // 2^64 units, whatever the order of the rows; what is not finite adds nothing.
 #include "learning/encode.glsl"
 
 WORDS_READ(3, entries);
-QUADS_READ(4, encodedGradient);
+VALUES_READ(4, encodedGradient);
 COUNTERS(5, sums);
 
 #include "learning/grid.glsl"
@@ -37,7 +37,7 @@ void addToSum(uint feature, float contribution) {
 void loadGradient(uint row, uint l, out float gradient[kFeatures]) {
     uint first = kMean ? 0u : l * kFeatures;
     [[unroll]] for (uint q = 0u; q < kLevelQuads; ++q) {
-        vec4 quad = loadQuad(encodedGradient, quadIndex(row, kFirstQuad + first / 4u + q, kEncodedQuads));
+        vec4 quad = loadValues(encodedGradient, quadIndex(row, kFirstQuad + first / 4u + q, kEncodedQuads));
         [[unroll]] for (uint c = 0u; c < 4u; ++c)
             if (q * 4u + c < kFeatures) {
                 float value = quad[(first + c) % 4u];

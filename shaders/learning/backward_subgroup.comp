@@ -2,22 +2,22 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
-#pragma variant backward_subgroup_half QUADS_IN_HALF
+#pragma variant backward_subgroup_half VALUES_IN_HALF
 // Backward pass: the gradient of the loss by every layer's sums (before its activation), a lane a few rows.
 #include "lib/kernel.glsl"
-#include "learning/quads.glsl"
+#include "learning/values.glsl"
 #include "learning/mlp_shape.glsl"
 #include "learning/activation.glsl"
 
 layout(constant_id = kConstantInputGradient) const bool kInputGradient = false;
 
 COUNTERS_READ(0, counters);
-QUADS_READ(1, packed);
-QUADS_READ(2, activations);
-RECORDS_READ(3, results);
-RECORDS_READ(4, resultGradient);
-QUADS_WRITE(5, layerGradients);
-QUADS_WRITE(6, inputGradient); // of one element where there is none
+VALUES_READ(1, packed);
+VALUES_READ(2, activations);
+QUADS_READ(3, results);
+QUADS_READ(4, resultGradient);
+VALUES_WRITE(5, layerGradients);
+VALUES_WRITE(6, inputGradient); // of one element where there is none
 layout(push_constant) uniform Push { RowsParams params; };
 #include "lib/store_by_address.glsl"
 
@@ -28,9 +28,9 @@ void beginWithResults(uint row) {
         [[unroll]] for (uint q = 0u; q < kOutputQuads; ++q) {
             uint rowR = row + r * kSubgroupSize;
             uint result = quadIndex(rowR, q, kOutputQuads);
-            vec4 gradient = uintBitsToFloat(loadRecord(resultGradient, result)) *
-                            outputDerivative(uintBitsToFloat(loadRecord(results, result)));
-            storeQuadAt(params.kept, quadIndex(rowR, kActivationQuads + q, kGradientQuads), gradient);
+            vec4 gradient = uintBitsToFloat(loadQuad(resultGradient, result)) *
+                            outputDerivative(uintBitsToFloat(loadQuad(results, result)));
+            storeValuesAt(params.kept, quadIndex(rowR, kActivationQuads + q, kGradientQuads), gradient);
             layerIn[r * kLargestQuads + q] = gradient;
         }
 }
@@ -38,15 +38,15 @@ void beginWithResults(uint row) {
 void finishBlock(uint row, uint layer, uint quad) {
     uint column = layer * kWidthQuads + quad;
     [[unroll]] for (uint r = 0u; r < kRows; ++r)
-        block[r] *= reluDerivative(loadQuad(activations, quadIndex(row + r * kSubgroupSize, column, kActivationQuads)));
+        block[r] *= reluDerivative(loadValues(activations, quadIndex(row + r * kSubgroupSize, column, kActivationQuads)));
     appendBlock(quad);
     [[unroll]] for (uint r = 0u; r < kRows; ++r)
-        storeQuadAt(params.kept, quadIndex(row + r * kSubgroupSize, column, kGradientQuads), block[r]);
+        storeValuesAt(params.kept, quadIndex(row + r * kSubgroupSize, column, kGradientQuads), block[r]);
 }
 
 void storeInputGradient(uint row, uint quad) {
     [[unroll]] for (uint r = 0u; r < kRows; ++r)
-        storeQuad(inputGradient, quadIndex(row + r * kSubgroupSize, quad, kInputQuads), block[r]);
+        storeValues(inputGradient, quadIndex(row + r * kSubgroupSize, quad, kInputQuads), block[r]);
 }
 
 void main() {

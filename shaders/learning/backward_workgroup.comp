@@ -1,21 +1,21 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variant backward_workgroup_half QUADS_IN_HALF
+#pragma variant backward_workgroup_half VALUES_IN_HALF
 // Backward pass: the gradient of the loss by every layer's sums (before its activation), a workgroup a tile of rows.
 #include "lib/kernel.glsl"
-#include "learning/quads.glsl"
+#include "learning/values.glsl"
 #include "learning/mlp_shape.glsl"
 #include "learning/activation.glsl"
 
 layout(constant_id = kConstantInputGradient) const bool kInputGradient = false;
 
 COUNTERS_READ(0, counters);
-QUADS_READ(1, packed);
-QUADS_READ(2, activations);
-RECORDS_READ(3, results);
-RECORDS_READ(4, resultGradient);
-QUADS_WRITE(5, layerGradients);
-QUADS_WRITE(6, inputGradient); // of one element where there is none
+VALUES_READ(1, packed);
+VALUES_READ(2, activations);
+QUADS_READ(3, results);
+QUADS_READ(4, resultGradient);
+VALUES_WRITE(5, layerGradients);
+VALUES_WRITE(6, inputGradient); // of one element where there is none
 layout(push_constant) uniform Push { RowsParams params; };
 
 #include "learning/mlp_workgroup.glsl"
@@ -24,9 +24,9 @@ void beginWithResults(uint first) {
     for (uint i = gl_LocalInvocationID.x; i < kGroupRows * kOutputQuads; i += kRowThreads * kQuadThreads) {
         uint row = first + i % kGroupRows, quad = i / kGroupRows;
         uint result = quadIndex(row, quad, kOutputQuads);
-        vec4 gradient = uintBitsToFloat(loadRecord(resultGradient, result)) *
-                        outputDerivative(uintBitsToFloat(loadRecord(results, result)));
-        storeQuad(layerGradients, quadIndex(row, kActivationQuads + quad, kGradientQuads), gradient);
+        vec4 gradient = uintBitsToFloat(loadQuad(resultGradient, result)) *
+                        outputDerivative(uintBitsToFloat(loadQuad(results, result)));
+        storeValues(layerGradients, quadIndex(row, kActivationQuads + quad, kGradientQuads), gradient);
         rowQuads[i] = toShared(gradient);
     }
 }
@@ -36,9 +36,9 @@ void hiddenLayer(uint first, uint layer, uint matrix, uint quads) {
     multiplyLayer(matrix, quads, kWidthQuads * 4u);
     FOR_LAYER_SUMS(row, quad, sum, {
         uint layerQuad = layer * kWidthQuads + quad;
-        vec4 gradient = sum * reluDerivative(loadQuad(activations, quadIndex(first + row, layerQuad, kActivationQuads)));
+        vec4 gradient = sum * reluDerivative(loadValues(activations, quadIndex(first + row, layerQuad, kActivationQuads)));
         rowQuads[quad * kGroupRows + row] = toShared(gradient);
-        storeQuad(layerGradients, quadIndex(first + row, layerQuad, kGradientQuads), gradient);
+        storeValues(layerGradients, quadIndex(first + row, layerQuad, kGradientQuads), gradient);
     })
 }
 
@@ -49,7 +49,7 @@ void inputLayer(uint first) {
             [[unroll]] for (uint m = 0u; m < kThreadQuads; ++m) {
                 uint quad = firstInput / 4u + quadOfThread(m);
                 if (quad < kInputQuads)
-                    storeQuad(inputGradient, quadIndex(first + rowOfThread(k), quad, kInputQuads), sums[k * kThreadQuads + m]);
+                    storeValues(inputGradient, quadIndex(first + rowOfThread(k), quad, kInputQuads), sums[k * kThreadQuads + m]);
             }
     }
 }

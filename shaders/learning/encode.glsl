@@ -2,7 +2,7 @@
 // last quad, and kPaddingQuads quads behind it, are ones. nrc/learning/encodings/slice.cpp sets the
 // constants; those of the encoding itself follow from kConstantOwn on.
 #include "lib/kernel.glsl"
-#include "learning/quads.glsl"
+#include "learning/values.glsl"
 #include "shared/constants.h"
 #include "shared/network.h"
 
@@ -14,7 +14,7 @@ layout(constant_id = kConstantSliceFirstQuad) const uint kFirstQuad = 0u;
 layout(constant_id = kConstantSlicePaddingQuads) const uint kPaddingQuads = 0u;
 
 COUNTERS_READ(0, counters);
-RECORDS_READ(1, inputs);
+QUADS_READ(1, inputs);
 layout(push_constant) uniform Push { RowsParams params; };
 
 float x[kDims];
@@ -24,7 +24,7 @@ const uint kSliceQuads = (kFirstInput + kDims + 3u) / 4u - kFirstInputQuad;
 
 void loadInputs(uint row) {
     [[unroll]] for (uint q = 0u; q < kSliceQuads; ++q) {
-        vec4 quad = uintBitsToFloat(loadRecord(inputs, quadIndex(row, kFirstInputQuad + q, kInputQuads)));
+        vec4 quad = uintBitsToFloat(loadQuad(inputs, quadIndex(row, kFirstInputQuad + q, kInputQuads)));
         [[unroll]] for (uint c = 0u; c < 4u; ++c) {
             uint i = (kFirstInputQuad + q) * 4u + c - kFirstInput; // wraps below the first
             if (i < kDims) x[i] = quad[c];
@@ -33,10 +33,10 @@ void loadInputs(uint row) {
 }
 
 // Writes quad `q` of this encoding.
-#define storeEncoded(row, q, quad) storeQuad(encoded, quadIndex(row, kFirstQuad + (q), kEncodedQuads), quad)
+#define storeEncoded(row, q, quad) storeValues(encoded, quadIndex(row, kFirstQuad + (q), kEncodedQuads), quad)
 
 // Writes `count` values, a constant, and the padding.
-#define storeValues(row, values, count) \
+#define storeEncoding(row, values, count) \
     [[unroll]] for (uint q = 0u; q < (count + 3u) / 4u + kPaddingQuads; ++q) { \
         vec4 quad = vec4(1.0); \
         [[unroll]] for (uint c = 0u; c < 4u; ++c) \

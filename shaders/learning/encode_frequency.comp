@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variant encode_frequency_half QUADS_IN_HALF
+#pragma variant encode_frequency_half VALUES_IN_HALF
 // Per input sin(2^k pi x) and cos(2^k pi x) for k < kFrequencies (Mildenhall et al. 2020, eq. 4), or in their stead
 // triangle(2^k x) alone (Müller et al. 2021).
 #include "learning/encode.glsl"
@@ -9,7 +9,7 @@
 layout(constant_id = kConstantOwn) const uint kFrequencies = 12u;
 layout(constant_id = kConstantOwn + 1u) const bool kTriangle = true;
 
-QUADS_WRITE(2, encoded);
+VALUES_WRITE(2, encoded);
 
 const uint kValues = kDims * kFrequencies * (kTriangle ? 1u : 2u);
 
@@ -29,5 +29,5 @@ void main() {
                 values[2u * i + 1u] = cosPi(scaled);
             }
         }
-    storeValues(row, values, kValues);
+    storeEncoding(row, values, kValues);
 }

@@ -1,13 +1,13 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variant encode_grid_half QUADS_IN_HALF
+#pragma variant encode_grid_half VALUES_IN_HALF
 // Features of a grid's corners about the row's point, weighted linearly in each dimension: level after level, or the levels'
 // mean.
 #include "learning/encode.glsl"
 
-RECORDS_READ(3, features);
+QUADS_READ(3, features);
 WORDS_READ(4, entries);
-QUADS_WRITE(5, encoded);
+VALUES_WRITE(5, encoded);
 
 #include "learning/grid.glsl"
 
@@ -37,7 +37,7 @@ void levelFeatures(vec3 position, uint l, out vec4 sum[kLevelQuads]) {
     [[unroll]] for (uint q = 0u; q < kLevelQuads; ++q) {
         vec4 quad[kCorners];
         [[unroll]] for (uint c = 0u; c < kCorners; ++c)
-            quad[c] = uintBitsToFloat(loadRecord(features, entry[c] * kFeatures / 4u + q));
+            quad[c] = uintBitsToFloat(loadQuad(features, entry[c] * kFeatures / 4u + q));
         sum[q] = vec4(0.0);
         [[unroll]] for (uint c = 0u; c < kCorners; ++c) sum[q] += weight[c] * alignedFeatures(quad[c], entry[c]);
     }

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variant encode_one_blob_half QUADS_IN_HALF
+#pragma variant encode_one_blob_half VALUES_IN_HALF
 // Mass of a kernel of width 1 / kBins about each input in kBins equal bins of [0, 1] (Müller et al. 2019): a Gaussian's, or
 // that of the quartic kernel (2021). What lies outside [0, 1] is lost: nothing wraps around or piles up at the borders.
 #include "learning/encode.glsl"
@@ -9,7 +9,7 @@
 layout(constant_id = kConstantOwn) const uint kBins = 4u;
 layout(constant_id = kConstantOwn + 1u) const bool kGaussian = false;
 
-QUADS_WRITE(2, encoded);
+VALUES_WRITE(2, encoded);
 
 const uint kValues = kDims * kBins;
 
@@ -29,5 +29,5 @@ void main() {
             below = above;
         }
     }
-    storeValues(row, values, kValues);
+    storeEncoding(row, values, kValues);
 }

@@ -6,7 +6,7 @@
 #include "learning/state.glsl"
 
 STATE(0);
-RECORDS_READ(1, rowSums);
+QUADS_READ(1, rowSums);
 layout(push_constant) uniform Push { EndBatchParams params; };
 
 shared vec4 sums[gl_WorkGroupSize.x];
@@ -24,7 +24,7 @@ void main() {
     uint lane = gl_LocalInvocationID.x;
     vec4 sum = vec4(0.0);
     for (uint row = lane; row < state.batchRows; row += gl_WorkGroupSize.x)
-        sum += uintBitsToFloat(loadRecord(rowSums, row));
+        sum += uintBitsToFloat(loadQuad(rowSums, row));
     sums[lane] = sum;
     barrier();
     if (lane != 0u) return;

@@ -2,21 +2,21 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
-#pragma variant forward_subgroup_half QUADS_IN_HALF
+#pragma variant forward_subgroup_half VALUES_IN_HALF
 #pragma variant infer_subgroup EVALUATE_ONLY
-#pragma variant infer_subgroup_half QUADS_IN_HALF EVALUATE_ONLY
+#pragma variant infer_subgroup_half VALUES_IN_HALF EVALUATE_ONLY
 // Forward pass, a lane a few rows (mlp_subgroup.glsl).
 #include "lib/kernel.glsl"
-#include "learning/quads.glsl"
+#include "learning/values.glsl"
 #include "learning/mlp_shape.glsl"
 #include "learning/activation.glsl"
 
 COUNTERS_READ(0, counters);
-QUADS_READ(1, encoded);
-QUADS_READ(2, packed);
-RECORDS_WRITE(3, results);
+VALUES_READ(1, encoded);
+VALUES_READ(2, packed);
+QUADS_WRITE(3, results);
 #ifndef EVALUATE_ONLY
-QUADS_WRITE(4, activations);
+VALUES_WRITE(4, activations);
 #endif
 layout(push_constant) uniform Push { RowsParams params; };
 #ifndef EVALUATE_ONLY
@@ -28,7 +28,7 @@ layout(push_constant) uniform Push { RowsParams params; };
 void keep(uint row, uint layer, uint quad) {
 #ifndef EVALUATE_ONLY
     [[unroll]] for (uint r = 0u; r < kRows; ++r)
-        storeQuadAt(params.kept, quadIndex(row + r * kSubgroupSize, layer * kWidthQuads + quad, kActivationQuads), block[r]);
+        storeValuesAt(params.kept, quadIndex(row + r * kSubgroupSize, layer * kWidthQuads + quad, kActivationQuads), block[r]);
 #endif
 }
 
@@ -40,7 +40,7 @@ void finishBlock(uint row, uint layer, uint quad) {
 
 void storeResults(uint row, uint quad) {
     [[unroll]] for (uint r = 0u; r < kRows; ++r)
-        storeRecord(results, quadIndex(row + r * kSubgroupSize, quad, kOutputQuads), floatBitsToUint(activateOutput(block[r])));
+        storeQuad(results, quadIndex(row + r * kSubgroupSize, quad, kOutputQuads), floatBitsToUint(activateOutput(block[r])));
 }
 
 void main() {
@@ -49,7 +49,7 @@ void main() {
 
     [[unroll]] for (uint r = 0u; r < kRows; ++r)
         [[unroll]] for (uint i = 0u; i < kInputQuads; ++i)
-            layerIn[r * kLargestQuads + i] = loadQuad(encoded, quadIndex(row + r * kSubgroupSize, i, kInputQuads));
+            layerIn[r * kLargestQuads + i] = loadValues(encoded, quadIndex(row + r * kSubgroupSize, i, kInputQuads));
 
     for (uint quad = 0u; quad < kWidthQuads; ++quad) {
         multiplyBlock(kInputMatrix, kInputQuads, quad);

@@ -1,20 +1,20 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variant forward_workgroup_half QUADS_IN_HALF
+#pragma variant forward_workgroup_half VALUES_IN_HALF
 #pragma variant infer_workgroup EVALUATE_ONLY
-#pragma variant infer_workgroup_half QUADS_IN_HALF EVALUATE_ONLY
+#pragma variant infer_workgroup_half VALUES_IN_HALF EVALUATE_ONLY
 // Forward pass, a workgroup a tile of rows (mlp_workgroup.glsl).
 #include "lib/kernel.glsl"
-#include "learning/quads.glsl"
+#include "learning/values.glsl"
 #include "learning/mlp_shape.glsl"
 #include "learning/activation.glsl"
 
 COUNTERS_READ(0, counters);
-QUADS_READ(1, encoded);
-QUADS_READ(2, packed);
-RECORDS_WRITE(3, results);
+VALUES_READ(1, encoded);
+VALUES_READ(2, packed);
+QUADS_WRITE(3, results);
 #ifndef EVALUATE_ONLY
-QUADS_WRITE(4, activations);
+VALUES_WRITE(4, activations);
 #endif
 layout(push_constant) uniform Push { RowsParams params; };
 
@@ -22,12 +22,12 @@ layout(push_constant) uniform Push { RowsParams params; };
 
 void loadInputs(uint first) {
     for (uint i = gl_LocalInvocationID.x; i < kGroupRows * kInputQuads; i += kRowThreads * kQuadThreads)
-        rowQuads[i] = toShared(loadQuad(encoded, quadIndex(first + i % kGroupRows, i / kGroupRows, kInputQuads)));
+        rowQuads[i] = toShared(loadValues(encoded, quadIndex(first + i % kGroupRows, i / kGroupRows, kInputQuads)));
 }
 
 void keep(uint row, uint quad, vec4 activation) {
 #ifndef EVALUATE_ONLY
-    storeQuad(activations, quadIndex(row, quad, kActivationQuads), activation);
+    storeValues(activations, quadIndex(row, quad, kActivationQuads), activation);
 #endif
 }
 
@@ -42,7 +42,7 @@ void finishHidden(uint first, uint layer) {
 void storeResults(uint first) {
     FOR_LAYER_SUMS(row, quad, sum, {
         if (quad < kOutputQuads)
-            storeRecord(results, quadIndex(first + row, quad, kOutputQuads), floatBitsToUint(activateOutput(sum)));
+            storeQuad(results, quadIndex(first + row, quad, kOutputQuads), floatBitsToUint(activateOutput(sum)));
     })
 }
 

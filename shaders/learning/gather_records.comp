@@ -10,18 +10,18 @@
 #include "shared/network.h"
 
 STATE(0);
-RECORDS_READ(1, inputs);
-RECORDS_READ(2, targets);
-RECORDS_WRITE(3, batchInputs);
-RECORDS_WRITE(4, batchTargets);
+QUADS_READ(1, inputs);
+QUADS_READ(2, targets);
+QUADS_WRITE(3, batchInputs);
+QUADS_WRITE(4, batchTargets);
 WORDS_WRITE(5, usable); // 1 or 0 a row
 layout(push_constant) uniform Push { GatherParams params; };
 
 #ifdef BY_ADDRESS
 #include "lib/store_by_address.glsl"
-#define storeGathered(name, index, record) storeRecordAt(params.name, index, record)
+#define storeGathered(name, index, record) storeQuadAt(params.name, index, record)
 #else
-#define storeGathered(name, index, record) storeRecord(name, index, record)
+#define storeGathered(name, index, record) storeQuad(name, index, record)
 #endif
 
 uint inputQuads() { return (params.inputs + 3u) / 4u; }
@@ -29,22 +29,22 @@ uint targetQuads() { return (params.targets + 3u) / 4u; }
 
 bool isUsable(uvec4 quad, bvec4 exists) { return isWithin(mix(vec4(0.0), uintBitsToFloat(quad), exists), params.limit); }
 
-bool copyRecord(uint record, uint row) {
+bool copyQuad(uint record, uint row) {
     bool usableSoFar = true;
     for (uint q = 0u; q < inputQuads(); ++q) {
-        uvec4 quad = loadRecord(inputs, quadIndex(record, q, inputQuads()));
+        uvec4 quad = loadQuad(inputs, quadIndex(record, q, inputQuads()));
         storeGathered(batchInputs, quadIndex(row, q, inputQuads()), quad);
         usableSoFar = usableSoFar && isUsable(quad, existing(q, params.inputs));
     }
     for (uint q = 0u; q < targetQuads(); ++q) {
-        uvec4 quad = loadRecord(targets, quadIndex(record, q, targetQuads()));
+        uvec4 quad = loadQuad(targets, quadIndex(record, q, targetQuads()));
         storeGathered(batchTargets, quadIndex(row, q, targetQuads()), quad);
         usableSoFar = usableSoFar && isUsable(quad, existing(q, params.targets));
     }
     return usableSoFar;
 }
 
-void clearRecord(uint row) {
+void clearQuad(uint row) {
     for (uint q = 0u; q < inputQuads(); ++q) storeGathered(batchInputs, quadIndex(row, q, inputQuads()), uvec4(0u));
     for (uint q = 0u; q < targetQuads(); ++q) storeGathered(batchTargets, quadIndex(row, q, targetQuads()), uvec4(0u));
 }
@@ -52,9 +52,9 @@ void clearRecord(uint row) {
 void main() {
     uint row = gl_GlobalInvocationID.x;
     if (params.first + row >= state.batchRows) return;
-    bool use = copyRecord(permute(state.batchFirst + params.first + row, state.records, state.permutationKey), row);
+    bool use = copyQuad(permute(state.batchFirst + params.first + row, state.records, state.permutationKey), row);
     storeWord(usable, row, use ? 1u : 0u);
     if (use) return;
-    clearRecord(row);
+    clearQuad(row);
     atomicAdd(state.droppedRecords, 1u);
 }

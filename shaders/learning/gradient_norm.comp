@@ -7,16 +7,16 @@
 #include "learning/state.glsl"
 
 STATE_READ(0);
-RECORDS_READ(1, gradients);
+QUADS_READ(1, gradients);
 WORDS_WRITE(2, partials);
 layout(push_constant) uniform Push { NormParams params; };
 
 #include "learning/gradient.glsl"
 
 vec4 gradientAt(uint quad) {
-    uvec4 first = loadRecord(gradients, quad);
+    uvec4 first = loadQuad(gradients, quad);
 #ifdef FROM_SUMS
-    return gradientFromSums(ivec4(first), ivec4(loadRecord(gradients, params.quads + quad)));
+    return gradientFromSums(ivec4(first), ivec4(loadQuad(gradients, params.quads + quad)));
 #else
     return uintBitsToFloat(first);
 #endif

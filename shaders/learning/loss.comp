@@ -14,11 +14,11 @@ layout(constant_id = kConstantLossOutputs) const uint kOutputs = 3u;
 const uint kQuads = (kOutputs + 3u) / 4u;
 
 STATE(0);
-RECORDS_READ(1, results);
-RECORDS_READ(2, targets);
+QUADS_READ(1, results);
+QUADS_READ(2, targets);
 WORDS_READ(3, usable);
-RECORDS_WRITE(4, resultGradient);
-RECORDS_WRITE(5, rowSums); // loss, luminance of the prediction and of the target, 1; all zero where the row is not used
+QUADS_WRITE(4, resultGradient);
+QUADS_WRITE(5, rowSums); // loss, luminance of the prediction and of the target, 1; all zero where the row is not used
 layout(push_constant) uniform Push { LossParams params; };
 
 // From exponentStart to exponentEnd over the steps [annealStart, annealEnd].
@@ -51,8 +51,8 @@ void main() {
     bool finite = true;
     [[unroll]] for (uint q = 0u; q < kQuads; ++q) {
         bvec4 exists = existing(q, kOutputs);
-        vec4 prediction = mix(vec4(0.0), uintBitsToFloat(loadRecord(results, quadIndex(row, q, kQuads))), exists);
-        vec4 target = mix(vec4(0.0), uintBitsToFloat(loadRecord(targets, quadIndex(row, q, kQuads))), exists);
+        vec4 prediction = mix(vec4(0.0), uintBitsToFloat(loadQuad(results, quadIndex(row, q, kQuads))), exists);
+        vec4 target = mix(vec4(0.0), uintBitsToFloat(loadQuad(targets, quadIndex(row, q, kQuads))), exists);
         vec4 difference = prediction - target;
         vec4 d = denominator(prediction);
         gradient[q] = 2.0 * difference / d;
@@ -64,7 +64,7 @@ void main() {
     bool usableRow = loadWord(usable, row) != 0u;
     bool use = usableRow && finite && loss <= kGradientLimit;
     [[unroll]] for (uint q = 0u; q < kQuads; ++q)
-        storeRecord(resultGradient, quadIndex(row, q, kQuads), floatBitsToUint(use ? handedOn(gradient[q]) : vec4(0.0)));
-    storeRecord(rowSums, row, floatBitsToUint(use ? vec4(loss, predicted, wanted, 1.0) : vec4(0.0)));
+        storeQuad(resultGradient, quadIndex(row, q, kQuads), floatBitsToUint(use ? handedOn(gradient[q]) : vec4(0.0)));
+    storeQuad(rowSums, row, floatBitsToUint(use ? vec4(loss, predicted, wanted, 1.0) : vec4(0.0)));
     if (usableRow && !use) atomicAdd(state.droppedRecords, 1u);
 }

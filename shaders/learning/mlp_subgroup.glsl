@@ -35,7 +35,7 @@ void multiplyBlock(uint matrix, uint quads, uint quad) {
     uint column = matrix + quadIndex(quad * kBlock + gl_SubgroupInvocationID % kBlock, 0u, quads);
     uint part = gl_SubgroupInvocationID / kBlock;
     [[unroll]] for (uint i = 0u; i < (quads + kLanesPerOutput - 1u) / kLanesPerOutput; ++i)
-        weights[i] = loadQuad(packed, column + min(i * kLanesPerOutput + part, quads - 1u) * kTileRows);
+        weights[i] = loadValues(packed, column + min(i * kLanesPerOutput + part, quads - 1u) * kTileRows);
     keepInMemory();
     [[unroll]] for (uint r = 0u; r < kRows; ++r) block[r] = vec4(0.0);
     [[unroll]] for (uint i = 0u; i < quads; ++i)

@@ -11,7 +11,7 @@ const uint kQuadThreads = kBlockQuads < 8u ? kBlockQuads : 8u; // the workgroup 
 const uint kThreadQuads = kBlockQuads / kQuadThreads;
 const uint kLayerBlocks = kWidthQuads / kBlockQuads;
 
-#ifdef QUADS_IN_HALF
+#ifdef VALUES_IN_HALF
 #define SharedQuad uvec2
 SharedQuad toShared(vec4 v) { return uvec2(packHalf2x16(v.xy), packHalf2x16(v.zw)); }
 vec4 fromShared(SharedQuad v) { return vec4(unpackHalf2x16(v.x), unpackHalf2x16(v.y)); }
@@ -35,7 +35,7 @@ uint quadOfThread(uint m) { return gl_LocalInvocationID.x / kRowThreads + m * kQ
 void loadWeights(uint matrix, uint quads, uint outputs, uint firstOutput) {
     for (uint i = gl_LocalInvocationID.x; i < kBlockOutputs * quads; i += kRowThreads * kQuadThreads) {
         uint o = firstOutput + i % kBlockOutputs;
-        weightQuads[i] = o < outputs ? toShared(loadQuad(packed, matrix + quadIndex(o, i / kBlockOutputs, quads)))
+        weightQuads[i] = o < outputs ? toShared(loadValues(packed, matrix + quadIndex(o, i / kBlockOutputs, quads)))
                                      : toShared(vec4(0.0));
     }
 }

@@ -16,11 +16,11 @@
 // OWN(binding, name): quads of which an invocation reads and writes those of its quad alone.
 #ifdef BY_ADDRESS
 #include "lib/store_by_address.glsl"
-#define OWN(slot, name) RECORDS(slot, name)
-#define loadOwn(name, index) loadRecord(name, index)
-#define storeOwn(name, index, record) storeRecordAt(params.name, index, record)
+#define OWN(slot, name) QUADS(slot, name)
+#define loadOwn(name, index) loadQuad(name, index)
+#define storeOwn(name, index, record) storeQuadAt(params.name, index, record)
 #else
-#define OWN(slot, name) layout(set = 0, binding = slot, std430) buffer name##Records { uvec4 name[]; }
+#define OWN(slot, name) layout(set = 0, binding = slot, std430) buffer name##Quads { uvec4 name[]; }
 #define loadOwn(name, index) name[index]
 #define storeOwn(name, index, quad) name[index] = quad
 #endif
@@ -29,7 +29,7 @@ STATE(0);
 #ifdef FROM_SUMS
 OWN(1, gradients);
 #else
-RECORDS_READ(1, gradients);
+QUADS_READ(1, gradients);
 #endif
 OWN(2, values);
 OWN(3, firstMoments);
@@ -85,7 +85,7 @@ vec4 takeGradient(uint quad) {
     if (high != ivec4(0)) storeOwn(gradients, highQuad, uvec4(0u));
     return gradientFromSums(low, high);
 #else
-    return uintBitsToFloat(loadRecord(gradients, quad));
+    return uintBitsToFloat(loadQuad(gradients, quad));
 #endif
 }
 

@@ -1,13 +1,13 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variant pack_weights_half QUADS_IN_HALF
+#pragma variant pack_weights_half VALUES_IN_HALF
 // Weights in the order in which the passes read them (mlp_shape.glsl): every matrix tiled, forwards and transposed.
 #include "lib/kernel.glsl"
-#include "learning/quads.glsl"
+#include "learning/values.glsl"
 #include "learning/mlp_shape.glsl"
 
 WORDS_READ(0, weights);
-QUADS_WRITE(1, packed);
+VALUES_WRITE(1, packed);
 layout(push_constant) uniform Push { PackParams params; };
 
 // A matrix as it lies in the weights: element (row, column) at first + row * rowStride + column * columnStride.
@@ -26,7 +26,7 @@ void packQuad(Matrix m, uint begin, uint index) {
     uint within = index - begin;
     uint row = within / (m.quads * kTileRows) * kTileRows + within % kTileRows;
     uint column = within / kTileRows % m.quads * 4u;
-    storeQuad(packed, index, vec4(weightAt(m, row, column), weightAt(m, row, column + 1u), weightAt(m, row, column + 2u),
+    storeValues(packed, index, vec4(weightAt(m, row, column), weightAt(m, row, column + 1u), weightAt(m, row, column + 2u),
                                   weightAt(m, row, column + 3u)));
 }
 

@@ -4,9 +4,9 @@
 #include "lib/kernel.glsl"
 #include "shared/network.h"
 
-RECORDS_READ(0, partials);
+QUADS_READ(0, partials);
 WORDS_READ(1, scale);
-RECORDS_WRITE(2, gradients);
+QUADS_WRITE(2, gradients);
 layout(push_constant) uniform Push { SumGradientsParams params; };
 
 void main() {
@@ -14,6 +14,6 @@ void main() {
     if (quad >= params.weightQuads) return;
     vec4 sum = vec4(0.0);
     for (uint chunk = 0u; chunk < params.chunks; ++chunk)
-        sum += uintBitsToFloat(loadRecord(partials, chunk * params.weightQuads + quad));
-    storeRecord(gradients, quad, floatBitsToUint(sum * uintBitsToFloat(loadWord(scale, params.scaleWord))));
+        sum += uintBitsToFloat(loadQuad(partials, chunk * params.weightQuads + quad));
+    storeQuad(gradients, quad, floatBitsToUint(sum * uintBitsToFloat(loadWord(scale, params.scaleWord))));
 }

@@ -35,6 +35,6 @@ Block blockAt(uint index, uint laneQuad) {
 }
 
 vec4 activationOf(Block b, uint row) {
-    return b.isInput ? loadQuad(encoded, quadIndex(row, b.activationQuad, kInputQuads))
-                     : loadQuad(activations, quadIndex(row, b.activationQuad, kActivationQuads));
+    return b.isInput ? loadValues(encoded, quadIndex(row, b.activationQuad, kInputQuads))
+                     : loadValues(activations, quadIndex(row, b.activationQuad, kActivationQuads));
 }

@@ -1,18 +1,18 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variant weight_gradient_subgroup_half QUADS_IN_HALF
+#pragma variant weight_gradient_subgroup_half VALUES_IN_HALF
 // Sum over rows of layer gradient x activation: partial sums of fixed chunks of rows. A subgroup owns a block of outputs by
 // 4 inputs a lane of one matrix; for each row its lanes load that row's activations, and broadcasts spread the row's
 // gradients, so that nothing is summed across lanes. The more outputs, the fewer loads for each product.
 #include "lib/kernel.glsl"
-#include "learning/quads.glsl"
+#include "learning/values.glsl"
 #include "learning/mlp_shape.glsl"
 
 COUNTERS_READ(0, counters);
-QUADS_READ(1, encoded);
-QUADS_READ(2, activations);
-QUADS_READ(3, layerGradients);
-RECORDS_WRITE(4, partials); // a chunk after the other, each laid out as the weights
+VALUES_READ(1, encoded);
+VALUES_READ(2, activations);
+VALUES_READ(3, layerGradients);
+QUADS_WRITE(4, partials); // a chunk after the other, each laid out as the weights
 layout(push_constant) uniform Push { WeightGradientParams params; };
 
 layout(constant_id = kConstantOutputsTogether) const uint kOutputsTogether = 16u;
@@ -44,14 +44,14 @@ void loadRows(Block b, uint row, uint end) {
     // One branch around all of them: of a choice between two loads lavapipe executes both.
     if (b.isInput)
         [[unroll]] for (uint k = 0u; k < kRowsTogether; ++k)
-            inputs[rowInTurn(k)] = loadQuad(encoded, quadIndex(min(row + rowInTurn(k), end - 1u), b.activationQuad, kInputQuads));
+            inputs[rowInTurn(k)] = loadValues(encoded, quadIndex(min(row + rowInTurn(k), end - 1u), b.activationQuad, kInputQuads));
     else
         [[unroll]] for (uint k = 0u; k < kRowsTogether; ++k)
-            inputs[rowInTurn(k)] = loadQuad(activations, quadIndex(min(row + rowInTurn(k), end - 1u), b.activationQuad, kActivationQuads));
+            inputs[rowInTurn(k)] = loadValues(activations, quadIndex(min(row + rowInTurn(k), end - 1u), b.activationQuad, kActivationQuads));
     uint gradientRow = row + gl_SubgroupInvocationID % kRowsTogether;
     [[unroll]] for (uint i = 0u; i < kGradientLoads; ++i) {
         uint quad = b.gradientQuad + min(i * kQuadsAtOnce + gl_SubgroupInvocationID / kRowsTogether, b.gradientQuads - 1u);
-        gradients[i] = mix(vec4(0.0), loadQuad(layerGradients, quadIndex(min(gradientRow, end - 1u), quad, kGradientQuads)),
+        gradients[i] = mix(vec4(0.0), loadValues(layerGradients, quadIndex(min(gradientRow, end - 1u), quad, kGradientQuads)),
                            bvec4(gradientRow < end));
     }
     keepInMemory();
@@ -81,5 +81,5 @@ void main() {
     uint outputs = max(b.gradientQuads * 4u, kFeaturePadding); // the output matrix has fewer than a block
     [[unroll]] for (uint o = 0u; o < kOutputsTogether; ++o)
         if (o < outputs)
-            storeRecord(partials, (params.firstChunk + chunk) * params.weightQuads + b.matrix + (b.firstOutput + o) * b.matrixQuads + b.quad, floatBitsToUint(sums[o]));
+            storeQuad(partials, (params.firstChunk + chunk) * params.weightQuads + b.matrix + (b.firstOutput + o) * b.matrixQuads + b.quad, floatBitsToUint(sums[o]));
 }

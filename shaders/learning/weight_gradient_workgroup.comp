@@ -1,17 +1,17 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#pragma variant weight_gradient_workgroup_half QUADS_IN_HALF
+#pragma variant weight_gradient_workgroup_half VALUES_IN_HALF
 // Sum over rows of layer gradient x activation: partial sums of fixed chunks of rows. A workgroup owns one block of a
 // matrix (weight_blocks.glsl); tiles of rows pass through shared memory. A thread owns 8 outputs by one quad of inputs.
 #include "lib/kernel.glsl"
-#include "learning/quads.glsl"
+#include "learning/values.glsl"
 #include "learning/mlp_shape.glsl"
 
 COUNTERS_READ(0, counters);
-QUADS_READ(1, encoded);
-QUADS_READ(2, activations);
-QUADS_READ(3, layerGradients);
-RECORDS_WRITE(4, partials); // a chunk after the other, each laid out as the weights
+VALUES_READ(1, encoded);
+VALUES_READ(2, activations);
+VALUES_READ(3, layerGradients);
+QUADS_WRITE(4, partials); // a chunk after the other, each laid out as the weights
 layout(push_constant) uniform Push { WeightGradientParams params; };
 
 layout(constant_id = kConstantOutputsTogether) const uint kOutputsTogether = 64u;
@@ -30,7 +30,7 @@ void stage(Block b, uint firstRow, uint end) {
     for (uint i = gl_LocalInvocationID.x; i < kStagedRows * kOutputQuadsTogether; i += kThreads) {
         uint row = firstRow + i / kOutputQuadsTogether, quad = i % kOutputQuadsTogether;
         gradients[i] = row < end && quad < b.gradientQuads
-                           ? loadQuad(layerGradients, quadIndex(row, b.gradientQuad + quad, kGradientQuads))
+                           ? loadValues(layerGradients, quadIndex(row, b.gradientQuad + quad, kGradientQuads))
                            : vec4(0.0);
     }
     // Threads of one quad take turns at its rows.
@@ -65,6 +65,6 @@ void main() {
     if (b.quad >= b.matrixQuads) return;
     [[unroll]] for (uint o = 0u; o < kThreadOutputs; ++o)
         if (threadOutput + o < max(outputs, kFeaturePadding))
-            storeRecord(partials, (params.firstChunk + chunk) * params.weightQuads + b.matrix + (b.firstOutput + threadOutput + o) * b.matrixQuads + b.quad,
+            storeQuad(partials, (params.firstChunk + chunk) * params.weightQuads + b.matrix + (b.firstOutput + threadOutput + o) * b.matrixQuads + b.quad,
                         floatBitsToUint(sums[o]));
 }

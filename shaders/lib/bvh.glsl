@@ -1,5 +1,5 @@
 // Traversal of the hierarchy of shared/bvh.h, one ray a lane, in steps that are the same for every lane: three
-// loads, four boxes and a triangle under selects. The including kernel has declared RECORDS_READ(0, bvh).
+// loads, four boxes and a triangle under selects. The including kernel has declared QUADS_READ(0, bvh).
 //
 // Measured on lavapipe with 8 lanes, and left out: a stack entry a child, three pushes a step (up to 6 % slower, under
 // branches 15 %); 8 steps between refills (5-14 %), 8 rays a lane (up to 10 %); leaves of two triangles, uniform texel
@@ -78,10 +78,10 @@ uvec4 visitNode(Traversal ray, uvec4 a, uvec4 b, uvec4 c) {
 
 // Visits ray.item and chooses the next one.
 void traversalStep(inout Traversal ray, const bool anyHit) {
-    uint record = ray.item * kItemRecords;
-    uvec4 a = loadRecord(bvh, record);
-    uvec4 b = loadRecord(bvh, record + 1u);
-    uvec4 c = loadRecord(bvh, record + 2u);
+    uint quad = ray.item * kItemQuads;
+    uvec4 a = loadQuad(bvh, quad);
+    uvec4 b = loadQuad(bvh, quad + 1u);
+    uvec4 c = loadQuad(bvh, quad + 2u);
     bool isTriangle = (a.w & kTriangleItem) != 0u;
     uvec4 key = visitNode(ray, a, b, c);
     bool hit = visitTriangle(ray, isTriangle, a, b, c);

@@ -6,7 +6,7 @@
 #include "lib/kernel.glsl"
 #include "shared/queue.h"
 
-RECORDS_READ(0, shadowRays);
+QUADS_READ(0, shadowRays);
 WORDS_READ(1, visibility);
 COUNTERS_READ(2, counters);
 layout(set = 0, binding = 3, std430) buffer Radiance { vec4 radiance[]; };
@@ -17,7 +17,7 @@ void main() {
     uint slot = gl_GlobalInvocationID.x;
     if (slot >= counters[kShadowRayCounter]) return;
     if (loadWord(visibility, slot) == 0u) return;
-    uint path = loadRecord(shadowRays, slot * kShadowRayRecords + 1u).w;
-    radiance[path].rgb += uintBitsToFloat(loadRecord(shadowRays, slot * kShadowRayRecords + 2u).rgb);
+    uint path = loadQuad(shadowRays, slot * kShadowRayQuads + 1u).w;
+    radiance[path].rgb += uintBitsToFloat(loadQuad(shadowRays, slot * kShadowRayQuads + 2u).rgb);
     hearDirectLight(path);
 }

@@ -6,7 +6,7 @@
 #include "shared/queue.h"
 
 FRAME_CONSTANTS(0);
-RECORDS_WRITE(1, rays);
+QUADS_WRITE(1, rays);
 layout(set = 0, binding = 2, std430) writeonly buffer Radiance { vec4 radiance[]; };
 COUNTERS(3, counters);
 layout(push_constant) uniform Push { WaveParams params; };
@@ -28,8 +28,8 @@ void main() {
     vec3 origin = parallel ? camera.position.xyz + across : camera.position.xyz;
     vec3 direction = parallel ? camera.forward.xyz : normalize(camera.forward.xyz + across);
 
-    storeRecord(rays, path * kRayRecords, uvec4(floatBitsToUint(origin), path));
-    storeRecord(rays, path * kRayRecords + 1u, uvec4(floatBitsToUint(direction), 0u));
-    storeRecord(rays, path * kRayRecords + 2u, uvec4(floatBitsToUint(vec3(1.0)), 0u));
+    storeQuad(rays, path * kRayQuads, uvec4(floatBitsToUint(origin), path));
+    storeQuad(rays, path * kRayQuads + 1u, uvec4(floatBitsToUint(direction), 0u));
+    storeQuad(rays, path * kRayQuads + 2u, uvec4(floatBitsToUint(vec3(1.0)), 0u));
     radiance[path] = vec4(0.0);
 }

@@ -9,27 +9,27 @@
 #include "shared/queue.h"
 
 FRAME_CONSTANTS(0);
-RECORDS_WRITE(1, rays);
-RECORDS_WRITE(2, hits);
+QUADS_WRITE(1, rays);
+QUADS_WRITE(2, hits);
 COUNTERS(3, counters);
-RECORDS_READ(4, geometry);
-RECORDS_READ(5, attributes);
-RECORDS_READ(6, materials);
-RECORDS_READ(7, textures);
+QUADS_READ(4, geometry);
+QUADS_READ(5, attributes);
+QUADS_READ(6, materials);
+QUADS_READ(7, textures);
 HALVES_READ(8, texels);
-RECORDS_READ(9, areaTable);
+QUADS_READ(9, areaTable);
 layout(push_constant) uniform Push { WaveParams params; float viewDistance; };
 #include "path/scene.glsl"
 
 uint sampleByArea(uvec2 random) {
     uint primitive = uniformIndex(random.x, frame.triangles);
-    uvec4 entry = loadRecord(areaTable, primitive);
+    uvec4 entry = loadQuad(areaTable, primitive);
     return unitFloat(random.y) < uintBitsToFloat(entry.x) ? primitive : entry.y;
 }
 
 // The side that is seen: of double-sided materials either, else the front.
 float sampleSide(uint material, uint random) {
-    uint flags = loadRecord(materials, material * kMaterialRecords + 3u).y;
+    uint flags = loadQuad(materials, material * kMaterialQuads + 3u).y;
     return (flags & kMaterialDoubleSided) != 0u && unitFloat(random) < 0.5 ? -1.0 : 1.0;
 }
 
@@ -41,13 +41,13 @@ void main() {
     uvec4 view = randomBits(params.firstPixel + path, params.sampleIndex, kSurfaceViewBlock, frame.seed);
     uint primitive = sampleByArea(point.xy);
     vec2 b = sampleTriangle(unitFloats(point).zw);
-    TriangleRecord tri = loadTriangle(primitive);
+    TriangleGeometry tri = loadTriangle(primitive);
     vec3 normal = normalize(cross(tri.e1, tri.e2)) * sampleSide(tri.material, view.z);
     vec3 towardsViewer = toWorld(frameFromNormal(normal), sampleCosineHemisphere(unitFloats(view).xy));
     vec3 origin = tri.p0 + b.x * tri.e1 + b.y * tri.e2 + viewDistance * towardsViewer;
 
-    storeRecord(rays, path * kRayRecords, uvec4(floatBitsToUint(origin), path));
-    storeRecord(rays, path * kRayRecords + 1u, uvec4(floatBitsToUint(-towardsViewer), 0u));
-    storeRecord(rays, path * kRayRecords + 2u, uvec4(floatBitsToUint(vec3(1.0)), 0u));
-    storeRecord(hits, path, uvec4(floatBitsToUint(viewDistance), primitive, floatBitsToUint(b)));
+    storeQuad(rays, path * kRayQuads, uvec4(floatBitsToUint(origin), path));
+    storeQuad(rays, path * kRayQuads + 1u, uvec4(floatBitsToUint(-towardsViewer), 0u));
+    storeQuad(rays, path * kRayQuads + 2u, uvec4(floatBitsToUint(vec3(1.0)), 0u));
+    storeQuad(hits, path, uvec4(floatBitsToUint(viewDistance), primitive, floatBitsToUint(b)));
 }

@@ -8,16 +8,16 @@
 #include "shared/queue.h"
 
 FRAME_CONSTANTS(0);
-RECORDS_READ(1, rays);
-RECORDS_READ(2, hits);
+QUADS_READ(1, rays);
+QUADS_READ(2, hits);
 COUNTERS_READ(3, counters);
 layout(set = 0, binding = 4, std430) buffer Radiance { vec4 radiance[]; };
-RECORDS_READ(5, geometry);
-RECORDS_READ(6, attributes);
-RECORDS_READ(7, materials);
-RECORDS_READ(8, textures);
+QUADS_READ(5, geometry);
+QUADS_READ(6, attributes);
+QUADS_READ(7, materials);
+QUADS_READ(8, textures);
 HALVES_READ(9, texels);
-RECORDS_READ(10, lights);
+QUADS_READ(10, lights);
 layout(push_constant) uniform Push { WaveParams params; };
 #define TAP_BINDING 11
 #include "tap_light.glsl"
@@ -27,14 +27,14 @@ layout(push_constant) uniform Push { WaveParams params; };
 void main() {
     uint slot = gl_GlobalInvocationID.x;
     if (slot >= counters[kRayCounter + params.queueParity]) return;
-    uvec4 hit = loadRecord(hits, slot);
+    uvec4 hit = loadQuad(hits, slot);
     if (hit.y == kNoPrimitive) return;
-    TriangleRecord tri = loadTriangle(hit.y);
+    TriangleGeometry tri = loadTriangle(hit.y);
     if (tri.light == kNoLight) return;
-    uvec4 origin = loadRecord(rays, slot * kRayRecords);
+    uvec4 origin = loadQuad(rays, slot * kRayQuads);
     uint path = origin.w;
-    vec4 ray = uintBitsToFloat(loadRecord(rays, slot * kRayRecords + 1u));
-    uvec4 beta = loadRecord(rays, slot * kRayRecords + 2u);
+    vec4 ray = uintBitsToFloat(loadQuad(rays, slot * kRayQuads + 1u));
+    uvec4 beta = loadQuad(rays, slot * kRayQuads + 2u);
 
     vec3 normal = cross(tri.e1, tri.e2);
     float doubleArea = length(normal);

@@ -8,12 +8,12 @@
 #include "shared/queue.h"
 
 FRAME_CONSTANTS(0);
-RECORDS_READ(1, rays);
-RECORDS_READ(2, hits);
+QUADS_READ(1, rays);
+QUADS_READ(2, hits);
 COUNTERS_READ(3, counters);
 layout(set = 0, binding = 4, std430) buffer Radiance { vec4 radiance[]; };
-RECORDS_READ(5, lights);
-RECORDS_READ(6, environment);
+QUADS_READ(5, lights);
+QUADS_READ(6, environment);
 layout(push_constant) uniform Push { WaveParams params; };
 #define TAP_BINDING 7
 #include "tap_light.glsl"
@@ -22,10 +22,10 @@ layout(push_constant) uniform Push { WaveParams params; };
 void main() {
     uint slot = gl_GlobalInvocationID.x;
     if (slot >= counters[kRayCounter + params.queueParity]) return;
-    if (loadRecord(hits, slot).y != kNoPrimitive) return;
-    uint path = loadRecord(rays, slot * kRayRecords).w;
-    vec4 ray = uintBitsToFloat(loadRecord(rays, slot * kRayRecords + 1u));
-    vec3 beta = uintBitsToFloat(loadRecord(rays, slot * kRayRecords + 2u).rgb);
+    if (loadQuad(hits, slot).y != kNoPrimitive) return;
+    uint path = loadQuad(rays, slot * kRayQuads).w;
+    vec4 ray = uintBitsToFloat(loadQuad(rays, slot * kRayQuads + 1u));
+    vec3 beta = uintBitsToFloat(loadQuad(rays, slot * kRayQuads + 2u).rgb);
 
     vec2 uv = equirectOfDirection(ray.xyz);
     float weight = params.depth == 0u ? 1.0 : powerHeuristic(ray.w, environmentPdf(uv));

@@ -4,22 +4,22 @@
 #include "lib/kernel.glsl"
 #include "shared/trace.h"
 
-RECORDS_READ(0, bvh);
-RECORDS_READ(1, rays);
+QUADS_READ(0, bvh);
+QUADS_READ(1, rays);
 COUNTERS_READ(2, counters);
-RECORDS_WRITE(3, hits);
+QUADS_WRITE(3, hits);
 layout(push_constant) uniform Push { TraceParams params; };
 
 #include "lib/bvh.glsl"
 
 Traversal takeRay(uint slot) {
-    uvec4 origin = loadRecord(rays, slot * kRayRecords);
-    uvec4 direction = loadRecord(rays, slot * kRayRecords + 1u);
+    uvec4 origin = loadQuad(rays, slot * kRayQuads);
+    uvec4 direction = loadQuad(rays, slot * kRayQuads + 1u);
     return beginTraversal(params.root, uintBitsToFloat(origin.xyz), uintBitsToFloat(direction.xyz), kUnbounded);
 }
 
 void storeHit(uint slot, Traversal ray) {
-    storeRecord(hits, slot, uvec4(floatBitsToUint(ray.tMax), ray.primitive, floatBitsToUint(vec2(ray.u, ray.v))));
+    storeQuad(hits, slot, uvec4(floatBitsToUint(ray.tMax), ray.primitive, floatBitsToUint(vec2(ray.u, ray.v))));
 }
 
 void main() {

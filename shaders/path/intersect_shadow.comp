@@ -4,8 +4,8 @@
 #include "lib/kernel.glsl"
 #include "shared/trace.h"
 
-RECORDS_READ(0, bvh);
-RECORDS_READ(1, rays);
+QUADS_READ(0, bvh);
+QUADS_READ(1, rays);
 COUNTERS_READ(2, counters);
 WORDS_WRITE(3, visibility);
 layout(push_constant) uniform Push { TraceParams params; };
@@ -13,8 +13,8 @@ layout(push_constant) uniform Push { TraceParams params; };
 #include "lib/bvh.glsl"
 
 Traversal takeRay(uint slot) {
-    uvec4 origin = loadRecord(rays, slot * kShadowRayRecords);
-    uvec4 direction = loadRecord(rays, slot * kShadowRayRecords + 1u);
+    uvec4 origin = loadQuad(rays, slot * kShadowRayQuads);
+    uvec4 direction = loadQuad(rays, slot * kShadowRayQuads + 1u);
     return beginTraversal(params.root, uintBitsToFloat(origin.xyz), uintBitsToFloat(direction.xyz),
                           uintBitsToFloat(origin.w));
 }

@@ -21,7 +21,7 @@ const float kFarAway = 1e30;
 LightSample sampleEnvironment(uvec4 random) {
     uint count = frame.environmentWidth * frame.environmentHeight;
     uint texel = uniformIndex(random.x, count);
-    uvec4 entry = loadRecord(environmentAlias, texel);
+    uvec4 entry = loadQuad(environmentAlias, texel);
     texel = unitFloat(aliasBits(random, count)) < uintBitsToFloat(entry.x) ? texel : entry.y;
     uint row = texel / frame.environmentWidth;
     uint column = texel - row * frame.environmentWidth;
@@ -32,8 +32,8 @@ LightSample sampleEnvironment(uvec4 random) {
 
 LightSample sampleTriangleLight(Receiver receiver, uvec4 random) {
     LightChoice choice = chooseTriangleLight(receiver, random);
-    uint primitive = loadRecord(lights, choice.light).z;
-    TriangleRecord tri = loadTriangle(primitive);
+    uint primitive = loadQuad(lights, choice.light).z;
+    TriangleGeometry tri = loadTriangle(primitive);
     vec2 b = sampleTriangle(vec2(unitFloat(random.z), unitFloat(random.w)));
     vec3 point = tri.p0 + b.x * tri.e1 + b.y * tri.e2;
     vec3 to = point - receiver.point;

@@ -6,21 +6,21 @@
 #include "shared/queue.h"
 
 FRAME_CONSTANTS(0);
-RECORDS_READ(1, rays);
-RECORDS_READ(2, hits);
+QUADS_READ(1, rays);
+QUADS_READ(2, hits);
 layout(set = 0, binding = 3, std430) buffer Layers { vec4 layers[]; };
-RECORDS_READ(4, geometry);
-RECORDS_READ(5, attributes);
-RECORDS_READ(6, materials);
-RECORDS_READ(7, textures);
+QUADS_READ(4, geometry);
+QUADS_READ(5, attributes);
+QUADS_READ(6, materials);
+QUADS_READ(7, textures);
 HALVES_READ(8, texels);
 layout(push_constant) uniform Push { WaveParams params; };
 #include "path/surface.glsl"
 
 void addHit(uint slot, inout vec4 sums[kLayerVectors]) {
-    uvec4 hit = loadRecord(hits, slot);
+    uvec4 hit = loadQuad(hits, slot);
     if (hit.y == kNoPrimitive) return;
-    vec3 view = -uintBitsToFloat(loadRecord(rays, slot * kRayRecords + 1u).xyz);
+    vec3 view = -uintBitsToFloat(loadQuad(rays, slot * kRayQuads + 1u).xyz);
     Surface s = loadSurface(hit.y, uintBitsToFloat(hit.zw), view);
     vec3 albedo = s.bsdf.diffuse + s.bsdf.specularF0;
     float depth = dot(s.position - camera.position.xyz, camera.forward.xyz);

@@ -1,11 +1,11 @@
-// Look-up in the reflectance table. Binding: `reflectanceTable` (records).
+// Look-up in the reflectance table. Binding: `reflectanceTable` (quads).
 #ifndef IRRADIA_PATH_REFLECTANCE_GLSL
 #define IRRADIA_PATH_REFLECTANCE_GLSL
 #include "path/needs.glsl"
 #include "shared/scene.h"
 
 vec3 loadReflectance(uint cosine, uint roughness) {
-    return uintBitsToFloat(loadRecord(reflectanceTable, roughness * kTableCosines + cosine).xyz);
+    return uintBitsToFloat(loadQuad(reflectanceTable, roughness * kTableCosines + cosine).xyz);
 }
 
 // (A, B, C) at cosine mu and perceptual roughness, bilinear between the table's nodes.

@@ -8,20 +8,20 @@
 #include "shared/queue.h"
 
 FRAME_CONSTANTS(0);
-RECORDS_READ(1, rays);
-RECORDS_READ(2, hits);
+QUADS_READ(1, rays);
+QUADS_READ(2, hits);
 COUNTERS(3, counters);
-RECORDS_READ(4, geometry);
-RECORDS_READ(5, attributes);
-RECORDS_READ(6, materials);
-RECORDS_READ(7, textures);
+QUADS_READ(4, geometry);
+QUADS_READ(5, attributes);
+QUADS_READ(6, materials);
+QUADS_READ(7, textures);
 HALVES_READ(8, texels);
-RECORDS_READ(9, lights);
-RECORDS_READ(10, environment);
-RECORDS_READ(11, environmentAlias);
-RECORDS_READ(12, reflectanceTable);
-RECORDS_WRITE(13, nextRays);
-RECORDS_WRITE(14, shadowRays);
+QUADS_READ(9, lights);
+QUADS_READ(10, environment);
+QUADS_READ(11, environmentAlias);
+QUADS_READ(12, reflectanceTable);
+QUADS_WRITE(13, nextRays);
+QUADS_WRITE(14, shadowRays);
 layout(push_constant) uniform Push { WaveParams params; };
 #include "path/light_sampling.glsl"
 #include "path/sampler.glsl"
@@ -41,35 +41,35 @@ uint pushItem(uint counter, bool alive) {
 }
 
 void pushShadowRay(bool alive, vec3 origin, float tMax, vec3 direction, uint path, vec3 contribution) {
-    uint slot = pushItem(kShadowRayCounter, alive) * kShadowRayRecords;
+    uint slot = pushItem(kShadowRayCounter, alive) * kShadowRayQuads;
     if (!alive) return;
-    storeRecord(shadowRays, slot, uvec4(floatBitsToUint(origin), floatBitsToUint(tMax)));
-    storeRecord(shadowRays, slot + 1u, uvec4(floatBitsToUint(direction), path));
-    storeRecord(shadowRays, slot + 2u, uvec4(floatBitsToUint(contribution), 0u));
+    storeQuad(shadowRays, slot, uvec4(floatBitsToUint(origin), floatBitsToUint(tMax)));
+    storeQuad(shadowRays, slot + 1u, uvec4(floatBitsToUint(direction), path));
+    storeQuad(shadowRays, slot + 2u, uvec4(floatBitsToUint(contribution), 0u));
 }
 
 void pushRay(bool alive, vec3 origin, vec3 direction, uint path, vec3 beta, float pdf, uint normal) {
-    uint slot = pushItem(kRayCounter + 1u - params.queueParity, alive) * kRayRecords;
+    uint slot = pushItem(kRayCounter + 1u - params.queueParity, alive) * kRayQuads;
     if (!alive) return;
-    storeRecord(nextRays, slot, uvec4(floatBitsToUint(origin), path));
-    storeRecord(nextRays, slot + 1u, uvec4(floatBitsToUint(direction), floatBitsToUint(pdf)));
-    storeRecord(nextRays, slot + 2u, uvec4(floatBitsToUint(beta), normal));
+    storeQuad(nextRays, slot, uvec4(floatBitsToUint(origin), path));
+    storeQuad(nextRays, slot + 1u, uvec4(floatBitsToUint(direction), floatBitsToUint(pdf)));
+    storeQuad(nextRays, slot + 2u, uvec4(floatBitsToUint(beta), normal));
 }
 
 void main() {
     uint item = gl_GlobalInvocationID.x;
     uint count = counters[kRayCounter + params.queueParity];
     uint slot = min(item, count - 1u); // every lane of a subgroup stays for the pushes
-    uvec4 hit = loadRecord(hits, slot);
+    uvec4 hit = loadQuad(hits, slot);
     bool alive = item < count && hit.y != kNoPrimitive;
-    uint path = loadRecord(rays, slot * kRayRecords).w;
-    vec3 view = -uintBitsToFloat(loadRecord(rays, slot * kRayRecords + 1u).xyz);
-    vec3 beta = uintBitsToFloat(loadRecord(rays, slot * kRayRecords + 2u).rgb);
+    uint path = loadQuad(rays, slot * kRayQuads).w;
+    vec3 view = -uintBitsToFloat(loadQuad(rays, slot * kRayQuads + 1u).xyz);
+    vec3 beta = uintBitsToFloat(loadQuad(rays, slot * kRayQuads + 2u).rgb);
     uint pixel = pixelOf(path);
     uint sampleIndex = sampleOf(path);
 
     Surface s = loadSurface(alive ? hit.y : 0u, uintBitsToFloat(hit.zw), view);
-    float arrivalPdf = uintBitsToFloat(loadRecord(rays, slot * kRayRecords + 1u).w);
+    float arrivalPdf = uintBitsToFloat(loadQuad(rays, slot * kRayQuads + 1u).w);
     Visit visit = arrive(alive, path, pixel, s, view, uintBitsToFloat(hit.x), arrivalPdf, beta);
     alive = visit.goesOn;
     vec3 directLight = vec3(0.0); // as the tap hears it

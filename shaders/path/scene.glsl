@@ -1,5 +1,5 @@
-// Access to the scene's records (shared/scene.h). The kernel includes this after declaring the bindings it needs:
-// `geometry`, `attributes`, `materials`, `textures` (records) and `texels` (halves).
+// Access to the scene's quads (shared/scene.h). The kernel includes this after declaring the bindings it needs:
+// `geometry`, `attributes`, `materials`, `textures` (quads) and `texels` (halves).
 #ifndef IRRADIA_PATH_SCENE_GLSL
 #define IRRADIA_PATH_SCENE_GLSL
 #include "lib/math.glsl"
@@ -7,7 +7,7 @@
 #include "shared/scene.h"
 
 // The triangle's plane and what it is made of.
-struct TriangleRecord {
+struct TriangleGeometry {
     vec3 p0;
     vec3 e1;
     vec3 e2;
@@ -16,12 +16,12 @@ struct TriangleRecord {
     uint handedness;
 };
 
-TriangleRecord loadTriangle(uint primitive) {
-    uint at = primitive * kGeometryRecords;
-    uvec4 r0 = loadRecord(geometry, at);
-    uvec4 r1 = loadRecord(geometry, at + 1u);
-    uvec4 r2 = loadRecord(geometry, at + 2u);
-    return TriangleRecord(uintBitsToFloat(r0.xyz), uintBitsToFloat(r1.xyz), uintBitsToFloat(r2.xyz), r0.w, r1.w, r2.w);
+TriangleGeometry loadTriangle(uint primitive) {
+    uint at = primitive * kGeometryQuads;
+    uvec4 r0 = loadQuad(geometry, at);
+    uvec4 r1 = loadQuad(geometry, at + 1u);
+    uvec4 r2 = loadQuad(geometry, at + 2u);
+    return TriangleGeometry(uintBitsToFloat(r0.xyz), uintBitsToFloat(r1.xyz), uintBitsToFloat(r2.xyz), r0.w, r1.w, r2.w);
 }
 
 // Texture coordinates of both sets at barycentrics (u, v), and the tangents' codes.
@@ -31,11 +31,11 @@ struct TriangleAttributes {
 };
 
 TriangleAttributes loadAttributes(uint primitive, vec2 b) {
-    uint at = primitive * kAttributeRecords;
-    vec4 a0 = uintBitsToFloat(loadRecord(attributes, at));
-    vec4 a1 = uintBitsToFloat(loadRecord(attributes, at + 1u));
-    vec4 a2 = uintBitsToFloat(loadRecord(attributes, at + 2u));
-    uvec4 a3 = loadRecord(attributes, at + 3u);
+    uint at = primitive * kAttributeQuads;
+    vec4 a0 = uintBitsToFloat(loadQuad(attributes, at));
+    vec4 a1 = uintBitsToFloat(loadQuad(attributes, at + 1u));
+    vec4 a2 = uintBitsToFloat(loadQuad(attributes, at + 2u));
+    uvec4 a3 = loadQuad(attributes, at + 3u);
     float b0 = 1.0 - b.x - b.y;
     TriangleAttributes result;
     result.uv[0] = b0 * a0.xy + b.x * a0.zw + b.y * a1.xy;
@@ -61,7 +61,7 @@ int wrapTexel(int i, int size, uint mode) {
 // Bilinear at texel centres; (1, 1, 1, 1) for kNoTexture.
 vec4 sampleTexture(uint code, TriangleAttributes a) {
     bool none = code == kNoTexture;
-    uvec4 texture = loadRecord(textures, none ? 0u : code >> 1u);
+    uvec4 texture = loadQuad(textures, none ? 0u : code >> 1u);
     ivec2 size = max(ivec2(texture.yz), ivec2(1));
     vec2 uv = (code & 1u) == 0u ? a.uv[0] : a.uv[1];
     // A non-finite or absurd coordinate must not become an undefined integer.
@@ -82,10 +82,10 @@ vec4 sampleTexture(uint code, TriangleAttributes a) {
 
 // Radiance that a triangle's front (or a double-sided one's either side) emits at texture coordinates `a`.
 vec3 emittedRadiance(uint material, bool front, TriangleAttributes a) {
-    uint at = material * kMaterialRecords;
-    vec3 emission = uintBitsToFloat(loadRecord(materials, at + 1u).xyz);
-    uint flags = loadRecord(materials, at + 3u).y;
-    if ((kTextureMask & kEmissiveTexture) != 0u) emission *= sampleTexture(loadRecord(materials, at + 4u).w, a).rgb;
+    uint at = material * kMaterialQuads;
+    vec3 emission = uintBitsToFloat(loadQuad(materials, at + 1u).xyz);
+    uint flags = loadQuad(materials, at + 3u).y;
+    if ((kTextureMask & kEmissiveTexture) != 0u) emission *= sampleTexture(loadQuad(materials, at + 4u).w, a).rgb;
     return front || (flags & kMaterialDoubleSided) != 0u ? emission : vec3(0.0);
 }
 

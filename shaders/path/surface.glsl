@@ -31,14 +31,14 @@ vec3 perturbNormal(vec3 ns, vec3 texel, float scale, TriangleAttributes a, uint 
 }
 
 Surface loadSurface(uint primitive, vec2 b, vec3 view) {
-    TriangleRecord tri = loadTriangle(primitive);
-    uvec3 normals = loadRecord(geometry, primitive * kGeometryRecords + 3u).xyz;
+    TriangleGeometry tri = loadTriangle(primitive);
+    uvec3 normals = loadQuad(geometry, primitive * kGeometryQuads + 3u).xyz;
     TriangleAttributes a = attributesFor(63u, primitive, b);
 
-    uint at = tri.material * kMaterialRecords;
-    vec4 m0 = uintBitsToFloat(loadRecord(materials, at));
-    vec4 m1 = uintBitsToFloat(loadRecord(materials, at + 1u));
-    vec4 m2 = uintBitsToFloat(loadRecord(materials, at + 2u));
+    uint at = tri.material * kMaterialQuads;
+    vec4 m0 = uintBitsToFloat(loadQuad(materials, at));
+    vec4 m1 = uintBitsToFloat(loadQuad(materials, at + 1u));
+    vec4 m2 = uintBitsToFloat(loadQuad(materials, at + 2u));
     vec3 base = m0.rgb;
     float metallic = m0.w;
     float roughness = m1.w;
@@ -51,8 +51,8 @@ Surface loadSurface(uint primitive, vec2 b, vec3 view) {
     vec3 ns = b0 * decodeOctahedral(normals.x) + b.x * decodeOctahedral(normals.y) + b.y * decodeOctahedral(normals.z);
     ns = dot(ns, ns) > 1e-8 ? normalize(ns) : ng;
     if (kTextureMask != 0u) {
-        uvec4 codes = loadRecord(materials, at + 4u);
-        uvec4 codes2 = loadRecord(materials, at + 5u);
+        uvec4 codes = loadQuad(materials, at + 4u);
+        uvec4 codes2 = loadQuad(materials, at + 5u);
         if ((kTextureMask & kBaseColorTexture) != 0u) base *= sampleTexture(codes.x, a).rgb;
         if ((kTextureMask & kMetallicRoughnessTexture) != 0u) {
             vec4 texel = sampleTexture(codes.y, a);
@@ -60,7 +60,7 @@ Surface loadSurface(uint primitive, vec2 b, vec3 view) {
             metallic *= texel.b;
         }
         if ((kTextureMask & kNormalTexture) != 0u) {
-            float scale = uintBitsToFloat(loadRecord(materials, at + 3u).x);
+            float scale = uintBitsToFloat(loadQuad(materials, at + 3u).x);
             vec3 bent = perturbNormal(ns, sampleTexture(codes.z, a).xyz, scale, a, tri.handedness, b);
             ns = codes.z == kNoTexture ? ns : bent;
         }

@@ -1,4 +1,4 @@
-// The bounding volume hierarchy as items of 3 records: a 4-wide tree in which nodes and triangles have one size, so
+// The bounding volume hierarchy as items of 3 quads: a 4-wide tree in which nodes and triangles have one size, so
 // that a traversal step is the same three loads whatever it meets. A node's children are consecutive items; a leaf
 // is one triangle.
 //
@@ -20,7 +20,7 @@
 #include "shared/types.h"
 SHARED_BEGIN
 
-SHARED_CONST uint kItemRecords = 3u;
+SHARED_CONST uint kItemQuads = 3u;
 SHARED_CONST uint kBvhWidth = 4u;
 SHARED_CONST uint kTriangleItem = 0x80000000u;
 SHARED_CONST uint kPrimitiveMask = 0x7fffffffu;

@@ -5,6 +5,15 @@
 #include "shared/types.h"
 SHARED_BEGIN
 
+// Paths: what a scene and a view need of the kernels (path/needs.glsl).
+SHARED_CONST uint kConstantEnvironment = 10u; // the environment is not black
+SHARED_CONST uint kConstantEmitters = 11u;    // there are emissive triangles
+SHARED_CONST uint kConstantTextures = 12u;    // mask of kBaseColorTexture, ...
+SHARED_CONST uint kConstantSpecular = 13u;    // some material has a specular lobe
+SHARED_CONST uint kConstantView = 14u;        // what is shown: kViewPicture, ...
+SHARED_CONST uint kConstantLightTree = 15u;   // there are enough emissive triangles for a hierarchy
+SHARED_CONST uint kConstantSampler = 16u;     // where a path's numbers come from: kSamplerRandom, ... (path/sampler.glsl)
+
 // Learning: a slice of an encoding (learning/encode.glsl).
 SHARED_CONST uint kConstantSliceInputQuads = 20u; // of a row of inputs
 SHARED_CONST uint kConstantSliceFirstInput = 21u;

@@ -1,17 +1,9 @@
-// Parameters of the path tracer's passes and the specialisation constants that fit its kernels to a scene.
+// Parameters of the path tracer's passes, and what its specialisation constants may be.
 #ifndef IRRADIA_SHARED_PATH_H
 #define IRRADIA_SHARED_PATH_H
+#include "shared/constants.h"
 #include "shared/types.h"
 SHARED_BEGIN
-
-// constant_id of what a scene needs (engine/path sets them; 0 and 1 are workgroup and subgroup size).
-SHARED_CONST uint kConstantEnvironment = 10u; // the environment is not black
-SHARED_CONST uint kConstantEmitters = 11u;    // there are emissive triangles
-SHARED_CONST uint kConstantTextures = 12u;    // mask of kBaseColorTexture, ...
-SHARED_CONST uint kConstantSpecular = 13u;    // some material has a specular lobe
-SHARED_CONST uint kConstantView = 14u;        // what is shown: kViewPicture, ...
-SHARED_CONST uint kConstantLightTree = 15u;   // there are enough emissive triangles for a hierarchy
-SHARED_CONST uint kConstantSampler = 16u;     // where a path's numbers come from: kSamplerRandom, ... (path/sampler.glsl)
 
 SHARED_CONST uint kSamplerRandom = 0u; // independent numbers
 SHARED_CONST uint kSamplerSobol = 1u;  // of a pixel's samples, Owen-scrambled Sobol' points: spread evenly

@@ -8,7 +8,7 @@ SHARED_BEGIN
 //   0: origin xyz, path index (uint)          path index = its number in the wave (path/wave.glsl)
 //   1: direction xyz (unit), pdf of the BSDF sample that made it (solid angle; 0 for camera rays)
 //   2: throughput beta rgb, shading normal of the vertex it leaves (octahedral; of camera rays 0)
-SHARED_CONST uint kRayRecords = 3u;
+SHARED_CONST uint kRayQuads = 3u;
 
 // Hit, 1 quad per RayQueue slot: t (float), primitive (index of a triangle, kNoPrimitive = escaped),
 // barycentrics u, v (floats): the point is p0 + u e1 + v e2.
@@ -19,7 +19,7 @@ SHARED_CONST uint kNoPrimitive = 0xffffffffu;
 //   1: direction xyz (unit), path index (uint)
 //   2: contribution rgb if unoccluded, unused
 // Visibility, 1 uint per ShadowRayQueue slot: 1 = unoccluded, 0 = occluded.
-SHARED_CONST uint kShadowRayRecords = 3u;
+SHARED_CONST uint kShadowRayQuads = 3u;
 
 // QueueCounters: a storage buffer of uints.
 SHARED_CONST uint kRayCounter = 0u;       // + 0 or 1: items in the current and the next RayQueue

@@ -1,4 +1,4 @@
-// The scene on the GPU: records (uvec4) in texel-viewable buffers. Written by engine/scene/gpu_scene, read by
+// The scene on the GPU: quads (uvec4) in texel-viewable buffers. Written by engine/scene/gpu_scene, read by
 // shaders/path/scene.glsl. Directions are octahedral, two 16-bit snorms in a uint (Cigolle et al. 2014).
 #ifndef IRRADIA_SHARED_SCENE_H
 #define IRRADIA_SHARED_SCENE_H
@@ -10,13 +10,13 @@ SHARED_BEGIN
 //   1: e1 = p1 - p0, light index (kNoLight = does not emit)
 //   2: e2 = p2 - p0, tangent handedness (bit i set = vertex i has w < 0)
 //   3: shading normals of the three vertices (octahedral), unused
-SHARED_CONST uint kGeometryRecords = 4u;
+SHARED_CONST uint kGeometryQuads = 4u;
 SHARED_CONST uint kNoLight = 0xffffffffu;
 
 // Triangle attributes, only in scenes with textures:
 //   0: uv set 0 of vertices 0 and 1;  1: uv set 0 of vertex 2, uv set 1 of vertex 0
 //   2: uv set 1 of vertices 1 and 2;  3: tangents of the three vertices (octahedral; 0 = none), unused
-SHARED_CONST uint kAttributeRecords = 4u;
+SHARED_CONST uint kAttributeQuads = 4u;
 SHARED_CONST uint kNoTangent = 0x80008000u; // a code octahedral snorm encoding never makes
 
 // Material:
@@ -24,27 +24,27 @@ SHARED_CONST uint kNoTangent = 0x80008000u; // a code octahedral snorm encoding 
 //   2: dielectric F0 rgb = ((ior-1)/(ior+1))^2 * specular colour, specular factor
 //   3: normal scale, flags, unused          4: texture of base colour, metallic-roughness, normal, emissive
 //   5: texture of specular, specular colour
-// A texture is (texture record index << 1 | uv set), or kNoTexture.
-SHARED_CONST uint kMaterialRecords = 6u;
+// A texture is (texture quad index << 1 | uv set), or kNoTexture.
+SHARED_CONST uint kMaterialQuads = 6u;
 SHARED_CONST uint kMaterialDoubleSided = 1u;
 SHARED_CONST uint kNoTexture = 0xffffffffu;
 
-// Texture, 1 record: first texel, width, height, wrap s | wrap t << 2 (0 repeat, 1 mirror, 2 clamp).
+// Texture, 1 quad: first texel, width, height, wrap s | wrap t << 2 (0 repeat, 1 mirror, 2 clamp).
 // Texels are four 16-bit floats, linear.
 
-// Emissive triangle, 1 record: trail, unused, primitive, unused. A trail leads from the root of the hierarchy of lights to
+// Emissive triangle, 1 quad: trail, unused, primitive, unused. A trail leads from the root of the hierarchy of lights to
 // the triangle's leaf: bit d = the second child is taken at depth d. Scenes of few lights have no hierarchy, but an alias
 // table over power (Vose 1991):
 //   keep probability (float), alias (light index), primitive, probability mass of this light (float)
-// Node of that hierarchy, from record lightCount on, the root first (engine/scene/lights/light_tree):
+// Node of that hierarchy, from quad lightCount on, the root first (engine/scene/lights/light_tree):
 //   0: centre and radius of a sphere around its triangles
 //   1: axis (octahedral) and cosine of a cone that holds their normals, power (share of all), first of two children or
 //      kLightLeaf | light index
-SHARED_CONST uint kLightNodeRecords = 2u;
+SHARED_CONST uint kLightNodeQuads = 2u;
 SHARED_CONST uint kLightLeaf = 0x80000000u;
-// Environment texel, 1 record: radiance rgb, density = probability mass * texel count (float).
-// Environment alias table, 1 record per texel: keep probability (float), alias, unused.
-// Area table, 1 record per triangle, an entry of the alias table over area: keep probability (float), alias, unused.
+// Environment texel, 1 quad: radiance rgb, density = probability mass * texel count (float).
+// Environment alias table, 1 quad per texel: keep probability (float), alias, unused.
+// Area table, 1 quad per triangle, an entry of the alias table over area: keep probability (float), alias, unused.
 // Only where surfaces are sampled.
 
 // Which textures any material of the scene uses (specialisation constant kTextureMask).

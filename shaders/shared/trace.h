@@ -1,6 +1,6 @@
 // Parameters of the tracing kernels intersect_closest and intersect_shadow.
-//   intersect_closest: 0 bvh (records), 1 rays (RayQueue), 2 counters, 3 hits (records)
-//   intersect_shadow:  0 bvh (records), 1 shadow rays (ShadowRayQueue), 2 counters, 3 visibility (words)
+//   intersect_closest: 0 bvh (quads), 1 rays (RayQueue), 2 counters, 3 hits (quads)
+//   intersect_shadow:  0 bvh (quads), 1 shadow rays (ShadowRayQueue), 2 counters, 3 visibility (words)
 #ifndef IRRADIA_SHARED_TRACE_H
 #define IRRADIA_SHARED_TRACE_H
 #include "shared/types.h"

@@ -4,9 +4,9 @@
 #include "lib/kernel.glsl"
 #include "harness.h"
 
-RECORDS_READ(0, cases);
-RECORDS_READ(1, reflectanceTable);
-RECORDS_WRITE(2, sums); // sum of f cos / pdf rgb, samples that count
+QUADS_READ(0, cases);
+QUADS_READ(1, reflectanceTable);
+QUADS_WRITE(2, sums); // sum of f cos / pdf rgb, samples that count
 layout(push_constant) uniform Push { BsdfHarnessParams params; };
 #include "bsdf_case.glsl"
 
@@ -27,5 +27,5 @@ void main() {
         BsdfValue value = evaluateCase(c, l);
         if (value.pdf > 0.0) sum += vec4(value.fCos / value.pdf, 1.0);
     }
-    storeRecord(sums, i, floatBitsToUint(sum));
+    storeQuad(sums, i, floatBitsToUint(sum));
 }

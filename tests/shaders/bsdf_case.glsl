@@ -20,9 +20,9 @@ struct BsdfCase {
 };
 
 BsdfCase loadCase(uint index) {
-    vec4 c0 = uintBitsToFloat(loadRecord(cases, 3u * index));
-    vec4 c1 = uintBitsToFloat(loadRecord(cases, 3u * index + 1u));
-    vec4 c2 = uintBitsToFloat(loadRecord(cases, 3u * index + 2u));
+    vec4 c0 = uintBitsToFloat(loadQuad(cases, 3u * index));
+    vec4 c1 = uintBitsToFloat(loadQuad(cases, 3u * index + 1u));
+    vec4 c2 = uintBitsToFloat(loadQuad(cases, 3u * index + 2u));
     BsdfCase c;
     c.bsdf = makeBsdf(c0.rgb, c0.w, c2.w, c1.rgb, c1.w);
     c.view = c2.xyz;

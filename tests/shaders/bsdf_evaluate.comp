@@ -4,10 +4,10 @@
 #include "lib/kernel.glsl"
 #include "harness.h"
 
-RECORDS_READ(0, cases);
-RECORDS_READ(1, reflectanceTable);
-RECORDS_READ(2, directions);
-RECORDS_WRITE(3, results); // 2 each: f cos rgb, density; mend, probability of the GGX lobe
+QUADS_READ(0, cases);
+QUADS_READ(1, reflectanceTable);
+QUADS_READ(2, directions);
+QUADS_WRITE(3, results); // 2 each: f cos rgb, density; mend, probability of the GGX lobe
 layout(push_constant) uniform Push { BsdfHarnessParams params; };
 #include "bsdf_case.glsl"
 
@@ -15,8 +15,8 @@ void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= params.count) return;
     BsdfCase c = loadCase(i);
-    vec3 l = uintBitsToFloat(loadRecord(directions, i).xyz);
+    vec3 l = uintBitsToFloat(loadQuad(directions, i).xyz);
     BsdfValue value = evaluateCase(c, l);
-    storeRecord(results, 2u * i, floatBitsToUint(vec4(value.fCos, value.pdf)));
-    storeRecord(results, 2u * i + 1u, floatBitsToUint(vec4(mendTowards(c, l), c.pSpecular, 0.0, 0.0)));
+    storeQuad(results, 2u * i, floatBitsToUint(vec4(value.fCos, value.pdf)));
+    storeQuad(results, 2u * i + 1u, floatBitsToUint(vec4(mendTowards(c, l), c.pSpecular, 0.0, 0.0)));
 }

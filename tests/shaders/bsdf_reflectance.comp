@@ -4,15 +4,15 @@
 #include "lib/kernel.glsl"
 #include "harness.h"
 
-RECORDS_READ(0, queries); // cosine, roughness
-RECORDS_READ(1, reflectanceTable);
-RECORDS_WRITE(2, results); // A, B, C
+QUADS_READ(0, queries); // cosine, roughness
+QUADS_READ(1, reflectanceTable);
+QUADS_WRITE(2, results); // A, B, C
 layout(push_constant) uniform Push { BsdfHarnessParams params; };
 #include "path/reflectance.glsl"
 
 void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= params.count) return;
-    vec2 query = uintBitsToFloat(loadRecord(queries, i).xy);
-    storeRecord(results, i, floatBitsToUint(vec4(reflectanceAt(query.x, query.y), 0.0)));
+    vec2 query = uintBitsToFloat(loadQuad(queries, i).xy);
+    storeQuad(results, i, floatBitsToUint(vec4(reflectanceAt(query.x, query.y), 0.0)));
 }

@@ -4,9 +4,9 @@
 #include "lib/kernel.glsl"
 #include "harness.h"
 
-RECORDS_READ(0, cases);
-RECORDS_READ(1, reflectanceTable);
-RECORDS_WRITE(2, samples); // direction, density
+QUADS_READ(0, cases);
+QUADS_READ(1, reflectanceTable);
+QUADS_WRITE(2, samples); // direction, density
 layout(push_constant) uniform Push { BsdfHarnessParams params; };
 #include "bsdf_case.glsl"
 
@@ -17,5 +17,5 @@ void main() {
     vec4 u = unitFloats(randomBits(i, params.caseIndex, bsdfBlock(0u), params.seed));
     vec3 l = sampleCase(c, u.xyz);
     float pdf = l.z > 0.0 ? evaluateCase(c, l).pdf : 0.0;
-    storeRecord(samples, i, floatBitsToUint(vec4(l, pdf)));
+    storeQuad(samples, i, floatBitsToUint(vec4(l, pdf)));
 }

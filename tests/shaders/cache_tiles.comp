@@ -6,17 +6,17 @@
 #include "shared/cache.h"
 #include "harness.h"
 
-RECORDS_READ(0, geometry);
-RECORDS_READ(1, attributes);
-RECORDS_READ(2, materials);
-RECORDS_READ(3, textures);
+QUADS_READ(0, geometry);
+QUADS_READ(1, attributes);
+QUADS_READ(2, materials);
+QUADS_READ(3, textures);
 HALVES_READ(4, texels);
 #define TAP_BINDING 5
-RECORDS_WRITE(8, queries);
-RECORDS_WRITE(9, queryWeights);
-RECORDS_WRITE(10, trainingQueries);
+QUADS_WRITE(8, queries);
+QUADS_WRITE(9, queryWeights);
+QUADS_WRITE(10, trainingQueries);
 COUNTERS(11, cacheCounters);
-RECORDS_WRITE(12, results);
+QUADS_WRITE(12, results);
 layout(push_constant) uniform Push { CacheTilesParams harness; };
 FrameConstants frame;
 WaveParams params; // of this invocation
@@ -32,5 +32,5 @@ void main() {
     frame.height = harness.height;
     rule.tilesX = harness.tilesX;
     rule.tilesY = harness.tilesY;
-    storeRecord(results, i, uvec4(trainingPathOf(0u, i % pixels), 0u, 0u, 0u));
+    storeQuad(results, i, uvec4(trainingPathOf(0u, i % pixels), 0u, 0u, 0u));
 }

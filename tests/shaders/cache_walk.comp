@@ -6,23 +6,23 @@
 #include "shared/cache.h"
 #include "harness.h"
 
-RECORDS_READ(0, geometry);
-RECORDS_READ(1, attributes);
-RECORDS_READ(2, materials);
-RECORDS_READ(3, textures);
+QUADS_READ(0, geometry);
+QUADS_READ(1, attributes);
+QUADS_READ(2, materials);
+QUADS_READ(3, textures);
 HALVES_READ(4, texels);
 #define TAP_BINDING 5
-RECORDS_WRITE(8, queries);
-RECORDS_WRITE(9, queryWeights);
-RECORDS_WRITE(10, trainingQueries);
+QUADS_WRITE(8, queries);
+QUADS_WRITE(9, queryWeights);
+QUADS_WRITE(10, trainingQueries);
 COUNTERS(11, cacheCounters);
-RECORDS_READ(12, vertices); // kWalkVertexRecords each, those of a path side by side
+QUADS_READ(12, vertices); // kWalkVertexQuads each, those of a path side by side
 layout(push_constant) uniform Push { CacheRule rule; CacheWalkParams harness; };
 FrameConstants frame;
 WaveParams params; // of this step
 #include "path/taps/radiance_cache/cached_path.glsl"
 
-vec4 part(uint vertex, uint index) { return uintBitsToFloat(loadRecord(vertices, vertex * kWalkVertexRecords + index)); }
+vec4 part(uint vertex, uint index) { return uintBitsToFloat(loadQuad(vertices, vertex * kWalkVertexQuads + index)); }
 
 void main() {
     uint path = gl_GlobalInvocationID.x;

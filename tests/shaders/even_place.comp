@@ -6,14 +6,14 @@
 #include "lib/kernel.glsl"
 #include "harness.h"
 
-RECORDS_READ(0, things);
-RECORDS_WRITE(1, results);
+QUADS_READ(0, things);
+QUADS_WRITE(1, results);
 layout(push_constant) uniform Push { CountParams params; };
 
 void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= params.count) return;
-    uvec4 thing = loadRecord(things, i);
+    uvec4 thing = loadQuad(things, i);
     bool isKept = thing.x < thing.z && isEvenlyKept(thing.x, thing.y, thing.z);
-    storeRecord(results, i, uvec4(evenPlace(thing.x, thing.y, thing.z), isKept ? 1u : 0u, 0u, 0u));
+    storeQuad(results, i, uvec4(evenPlace(thing.x, thing.y, thing.z), isKept ? 1u : 0u, 0u, 0u));
 }

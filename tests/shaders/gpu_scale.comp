@@ -8,11 +8,11 @@ layout(push_constant) uniform Params {
     uint count;
     uint factor;
 };
-RECORDS_READ(0, source);
-RECORDS_WRITE(1, target);
+QUADS_READ(0, source);
+QUADS_WRITE(1, target);
 
 void main() {
     const uint i = gl_GlobalInvocationID.x;
     if (i >= count) return;
-    storeRecord(target, i, loadRecord(source, i) * factor + kAddend);
+    storeQuad(target, i, loadQuad(source, i) * factor + kAddend);
 }

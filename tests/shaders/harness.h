@@ -88,7 +88,7 @@ struct CacheWalkParams {
 // Of each vertex: position, distance; view, pdf; geometric normal, roughness; shading normal, the BSDF's
 // alpha; diffuse, 1 as uint bits where the path goes on; specular; throughput; light that arrives; emission
 // that the next ray meets.
-SHARED_CONST uint kWalkVertexRecords = 9u;
+SHARED_CONST uint kWalkVertexQuads = 9u;
 
 SHARED_END
 #endif

@@ -1,12 +1,12 @@
 // The scene's bindings 0 to 7 and ray casting without a hierarchy, for the harness kernels of light sampling.
-RECORDS_READ(0, geometry);
-RECORDS_READ(1, attributes);
-RECORDS_READ(2, materials);
-RECORDS_READ(3, textures);
+QUADS_READ(0, geometry);
+QUADS_READ(1, attributes);
+QUADS_READ(2, materials);
+QUADS_READ(3, textures);
 HALVES_READ(4, texels);
-RECORDS_READ(5, lights);
-RECORDS_READ(6, environment);
-RECORDS_READ(7, environmentAlias);
+QUADS_READ(5, lights);
+QUADS_READ(6, environment);
+QUADS_READ(7, environmentAlias);
 layout(push_constant) uniform Push {
     FrameConstants frame;
     LightHarnessParams harness;
@@ -27,7 +27,7 @@ struct LightHit {
 LightHit castRay(vec3 origin, vec3 direction) {
     LightHit hit = LightHit(kFarAway, 0u, vec2(0.0));
     for (uint i = 0u; i < harness.triangleCount; ++i) {
-        TriangleRecord tri = loadTriangle(i);
+        TriangleGeometry tri = loadTriangle(i);
         vec3 p = cross(direction, tri.e2);
         float determinant = dot(p, tri.e1);
         vec3 s = origin - tri.p0;
@@ -43,7 +43,7 @@ Receiver harnessReceiver() { return Receiver(harness.origin.xyz, harness.normal.
 
 // The density that a hit finds for light sampling, as handle_emissive_hits computes it.
 float hitPdf(LightHit hit, vec3 direction) {
-    TriangleRecord tri = loadTriangle(hit.primitive);
+    TriangleGeometry tri = loadTriangle(hit.primitive);
     vec3 normal = cross(tri.e1, tri.e2);
     float doubleArea = length(normal);
     float chance = lightChance(tri.light, harnessReceiver());

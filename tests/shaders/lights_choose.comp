@@ -7,12 +7,12 @@
 #include "harness.h"
 #include "light_scene.glsl"
 
-RECORDS_WRITE(8, choices); // light, chance, chance that is found for the light
+QUADS_WRITE(8, choices); // light, chance, chance that is found for the light
 
 void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= harness.count) return;
     LightChoice choice = chooseLight(harnessReceiver(), randomBits(i, 0u, lightBlock(0u), frame.seed).x);
     float found = chanceOfLight(choice.light, harnessReceiver());
-    storeRecord(choices, i, uvec4(choice.light, floatBitsToUint(vec2(choice.chance, found)), 0u));
+    storeQuad(choices, i, uvec4(choice.light, floatBitsToUint(vec2(choice.chance, found)), 0u));
 }

@@ -9,8 +9,8 @@
 #include "harness.h"
 #include "light_scene.glsl"
 
-RECORDS_READ(8, reflectanceTable);
-RECORDS_WRITE(9, sums); // 3 each, one for each strategy: light sampling, BSDF sampling, both
+QUADS_READ(8, reflectanceTable);
+QUADS_WRITE(9, sums); // 3 each, one for each strategy: light sampling, BSDF sampling, both
 #include "path/reflectance.glsl"
 
 struct Vertex {
@@ -52,7 +52,7 @@ Incident incidentFrom(vec3 direction) {
         vec2 uv = equirectOfDirection(direction);
         return Incident(environmentRadiance(uv), environmentPdf(uv) * kPdfFault);
     }
-    TriangleRecord tri = loadTriangle(hit.primitive);
+    TriangleGeometry tri = loadTriangle(hit.primitive);
     if (tri.light == kNoLight) return Incident(vec3(0.0), 0.0);
     bool front = dot(cross(tri.e1, tri.e2), direction) < 0.0;
     vec3 radiance = emittedRadiance(tri.material, front, attributesFor(kEmissiveTexture, hit.primitive, hit.b));
@@ -85,7 +85,7 @@ void main() {
             byBoth += estimate * powerHeuristic(value.pdf, incident.pdf);
         }
     }
-    storeRecord(sums, 3u * item, floatBitsToUint(vec4(byLight * kRadianceFault, 0.0)));
-    storeRecord(sums, 3u * item + 1u, floatBitsToUint(vec4(byBsdf * kRadianceFault, 0.0)));
-    storeRecord(sums, 3u * item + 2u, floatBitsToUint(vec4(byBoth * kRadianceFault, 0.0)));
+    storeQuad(sums, 3u * item, floatBitsToUint(vec4(byLight * kRadianceFault, 0.0)));
+    storeQuad(sums, 3u * item + 1u, floatBitsToUint(vec4(byBsdf * kRadianceFault, 0.0)));
+    storeQuad(sums, 3u * item + 2u, floatBitsToUint(vec4(byBoth * kRadianceFault, 0.0)));
 }

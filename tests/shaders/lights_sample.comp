@@ -7,7 +7,7 @@
 #include "harness.h"
 #include "light_scene.glsl"
 
-RECORDS_WRITE(8, samples); // 3 each: direction, t max; radiance, density; density found by the ray, primitive it hits
+QUADS_WRITE(8, samples); // 3 each: direction, t max; radiance, density; density found by the ray, primitive it hits
 
 void main() {
     uint i = gl_GlobalInvocationID.x;
@@ -17,7 +17,7 @@ void main() {
     float pdf = 0.0;
     if (light.tMax == kFarAway) pdf = environmentPdf(equirectOfDirection(light.direction));
     else if (hit.t < kFarAway) pdf = hitPdf(hit, light.direction);
-    storeRecord(samples, 3u * i, floatBitsToUint(vec4(light.direction, light.tMax)));
-    storeRecord(samples, 3u * i + 1u, floatBitsToUint(vec4(light.radiance, light.pdf)));
-    storeRecord(samples, 3u * i + 2u, uvec4(floatBitsToUint(pdf), floatBitsToUint(hit.t), hit.primitive, 0u));
+    storeQuad(samples, 3u * i, floatBitsToUint(vec4(light.direction, light.tMax)));
+    storeQuad(samples, 3u * i + 1u, floatBitsToUint(vec4(light.radiance, light.pdf)));
+    storeQuad(samples, 3u * i + 2u, uvec4(floatBitsToUint(pdf), floatBitsToUint(hit.t), hit.primitive, 0u));
 }

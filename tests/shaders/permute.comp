@@ -5,10 +5,10 @@
 #include "lib/permutation.glsl"
 #include "harness.h"
 
-RECORDS_WRITE(0, results);
+QUADS_WRITE(0, results);
 layout(push_constant) uniform Push { PermuteParams params; };
 
 void main() {
     uint i = gl_GlobalInvocationID.x;
-    if (i < params.count) storeRecord(results, i, uvec4(permute(i, params.count, params.key)));
+    if (i < params.count) storeQuad(results, i, uvec4(permute(i, params.count, params.key)));
 }

@@ -7,8 +7,8 @@
 #include "shared/bvh.h"
 #include "harness.h"
 
-RECORDS_READ(0, cases); // 4 each: p0 and u, e1 and v, e2, and a direction to leave by or, at its w, to come from
-RECORDS_WRITE(1, results); // t of the hit (0 = none), error, length of the ray that ends before, distance
+QUADS_READ(0, cases); // 4 each: p0 and u, e1 and v, e2, and a direction to leave by or, at its w, to come from
+QUADS_WRITE(1, results); // t of the hit (0 = none), error, length of the ray that ends before, distance
 layout(push_constant) uniform Push { PlaneErrorParams params; };
 
 layout(constant_id = 40) const float kErrorFault = 1.0; // 1 leaves the bounds as they are
@@ -16,12 +16,12 @@ layout(constant_id = 40) const float kErrorFault = 1.0; // 1 leaves the bounds a
 void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= params.count) return;
-    vec4 a = uintBitsToFloat(loadRecord(cases, 4u * i));
-    vec4 b = uintBitsToFloat(loadRecord(cases, 4u * i + 1u));
+    vec4 a = uintBitsToFloat(loadQuad(cases, 4u * i));
+    vec4 b = uintBitsToFloat(loadQuad(cases, 4u * i + 1u));
     vec3 p0 = a.xyz;
     vec3 e1 = b.xyz;
-    vec3 e2 = uintBitsToFloat(loadRecord(cases, 4u * i + 2u)).xyz;
-    vec4 way = uintBitsToFloat(loadRecord(cases, 4u * i + 3u));
+    vec3 e2 = uintBitsToFloat(loadQuad(cases, 4u * i + 2u)).xyz;
+    vec4 way = uintBitsToFloat(loadQuad(cases, 4u * i + 3u));
     vec3 normal = cross(e1, e2);
     float doubleArea = length(normal);
     normal /= doubleArea;
@@ -49,5 +49,5 @@ void main() {
     float t, u, v;
     float margin = 8.0 * kRounding * max(length(e1), length(e2));
     bool hit = intersectTriangle(origin, direction, tMax, p0, e1, e2, margin, t, u, v);
-    storeRecord(results, i, floatBitsToUint(vec4(hit ? t : 0.0, error, tMax, distance)));
+    storeQuad(results, i, floatBitsToUint(vec4(hit ? t : 0.0, error, tMax, distance)));
 }

@@ -5,7 +5,7 @@
 #include "path/sampler.glsl"
 #include "harness.h"
 
-RECORDS_WRITE(0, bits);
+QUADS_WRITE(0, bits);
 layout(push_constant) uniform Push { SamplerHarnessParams params; };
 
 uvec4 bitsOf(uint pixel, uint sampleIndex) {
@@ -17,5 +17,5 @@ uvec4 bitsOf(uint pixel, uint sampleIndex) {
 void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= params.count) return;
-    storeRecord(bits, i, bitsOf(params.first.x + i / params.samples, params.first.y + i % params.samples));
+    storeQuad(bits, i, bitsOf(params.first.x + i / params.samples, params.first.y + i % params.samples));
 }

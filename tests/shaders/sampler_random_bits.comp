@@ -5,12 +5,12 @@
 #include "lib/rng.glsl"
 #include "harness.h"
 
-RECORDS_WRITE(0, bits);
+QUADS_WRITE(0, bits);
 layout(push_constant) uniform Push { RngHarnessParams params; };
 
 void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= params.count) return;
     uvec4 key = params.first + i * params.step;
-    storeRecord(bits, i, randomBits(key.x, key.y, key.z, key.w));
+    storeQuad(bits, i, randomBits(key.x, key.y, key.z, key.w));
 }

@@ -6,7 +6,7 @@
 #include "lib/sampling.glsl"
 #include "harness.h"
 
-RECORDS_WRITE(0, samples);
+QUADS_WRITE(0, samples);
 layout(push_constant) uniform Push { WarpHarnessParams params; };
 
 void main() {
@@ -20,5 +20,5 @@ void main() {
     case kWarpVisibleNormal: result.xyz = sampleVisibleNormal(params.view.xyz, params.view.w, u.xy); break;
     case kWarpEquirect: result = vec4(u.xy, equirectOfDirection(directionOfEquirect(u.xy))); break;
     }
-    storeRecord(samples, i, floatBitsToUint(result));
+    storeQuad(samples, i, floatBitsToUint(result));
 }

@@ -4,20 +4,20 @@
 #include "lib/kernel.glsl"
 #include "harness.h"
 
-RECORDS_READ(0, geometry);
-RECORDS_READ(1, attributes);
-RECORDS_READ(2, materials);
-RECORDS_READ(3, textures);
+QUADS_READ(0, geometry);
+QUADS_READ(1, attributes);
+QUADS_READ(2, materials);
+QUADS_READ(3, textures);
 HALVES_READ(4, texels);
-RECORDS_READ(5, queries); // u, v, texture code
-RECORDS_WRITE(6, results);
+QUADS_READ(5, queries); // u, v, texture code
+QUADS_WRITE(6, results);
 layout(push_constant) uniform Push { BsdfHarnessParams params; };
 #include "path/scene.glsl"
 
 void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= params.count) return;
-    uvec4 query = loadRecord(queries, i);
+    uvec4 query = loadQuad(queries, i);
     vec2 uv = uintBitsToFloat(query.xy);
-    storeRecord(results, i, floatBitsToUint(sampleTexture(query.z, TriangleAttributes(vec2[2](uv, uv), uvec3(0u)))));
+    storeQuad(results, i, floatBitsToUint(sampleTexture(query.z, TriangleAttributes(vec2[2](uv, uv), uvec3(0u)))));
 }

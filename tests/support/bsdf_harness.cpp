@@ -19,12 +19,12 @@ Buffer caseBuffer(const std::vector<BsdfCase>& cases) {
         records.emplace_back(glm::vec3(c.material.f0), c.material.specular);
         records.emplace_back(c.view, c.material.roughness);
     }
-    return recordBuffer(records);
+    return quadBuffer(records);
 }
 
 const Buffer& reflectanceTable() {
     static const Buffer* table =
-        new Buffer(recordBuffer(buildReflectanceTable())); // never destroyed, as the device
+        new Buffer(quadBuffer(buildReflectanceTable())); // never destroyed, as the device
     return *table;
 }
 
@@ -34,7 +34,7 @@ std::vector<BsdfEvaluation> evaluateBsdf(const std::vector<BsdfCase>& cases,
     KernelHarness kernel(kernels::bsdf_evaluate, faults);
     std::vector<glm::vec4> records;
     for (const glm::vec3& l : directions) records.emplace_back(l, 0.0f);
-    const Buffer inputs = caseBuffer(cases), towards = recordBuffer(records);
+    const Buffer inputs = caseBuffer(cases), towards = quadBuffer(records);
     const gpu::BsdfHarnessParams params{static_cast<uint32_t>(cases.size()), 0, 0, 0};
     const auto results =
         kernel.run({inputs, reflectanceTable(), towards}, params, cases.size(), 2 * cases.size());

@@ -58,7 +58,7 @@ gpu::CacheState stateOf(double scale) {
     return state;
 }
 
-CacheBench::CacheBench(RecordAccess form)
+CacheBench::CacheBench(QuadAccess form)
     : device(deviceWith(form))
     , counters(makeBuffer(device, "counters", std::vector<uint32_t>(gpu::kCacheCounters)))
     , state(makeBuffer(device, "state", std::vector{stateOf(1.0)})) {}

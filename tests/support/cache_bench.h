@@ -35,7 +35,7 @@ gpu::CacheState stateOf(double scale);
 
 class CacheBench {
 public:
-    explicit CacheBench(RecordAccess form);
+    explicit CacheBench(QuadAccess form);
 
     Buffer make(const Quads& quads) { return makeBuffer(device, "quads", quads); }
     void set(uint32_t counter, uint32_t value);

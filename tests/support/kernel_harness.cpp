@@ -27,11 +27,11 @@ KernelHarness::KernelHarness(const KernelSource& source, const std::vector<Speci
         return options;
     }()) {}
 
-Buffer recordBuffer(const std::vector<glm::uvec4>& records) {
+Buffer quadBuffer(const std::vector<glm::uvec4>& records) {
     return makeBuffer(validatedDevice(), "records", records);
 }
 
-Buffer recordBuffer(const std::vector<glm::vec4>& records) {
+Buffer quadBuffer(const std::vector<glm::vec4>& records) {
     return makeBuffer(validatedDevice(), "records", records);
 }
 

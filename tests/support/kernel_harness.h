@@ -49,7 +49,7 @@ private:
 };
 
 // A device buffer of records, for inputs.
-Buffer recordBuffer(const std::vector<glm::uvec4>& records);
-Buffer recordBuffer(const std::vector<glm::vec4>& records);
+Buffer quadBuffer(const std::vector<glm::uvec4>& records);
+Buffer quadBuffer(const std::vector<glm::vec4>& records);
 
 } // namespace irradia::test

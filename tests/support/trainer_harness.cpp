@@ -76,7 +76,7 @@ std::vector<double> TrainingRecords::inputRow(uint32_t row) const {
     return {begin, begin + kTrainerInputs};
 }
 
-TrainingRecords randomRecords(uint32_t count, uint64_t seed) {
+TrainingRecords randomQuads(uint32_t count, uint64_t seed) {
     reference::Random random(seed);
     TrainingRecords records;
     for (uint32_t i = 0; i < count * kTrainerInputs; ++i)

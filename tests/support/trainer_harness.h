@@ -19,7 +19,7 @@ struct TrainingRecords {
 };
 
 // Inputs in +-1, targets in [0, 1).
-TrainingRecords randomRecords(uint32_t count, uint64_t seed);
+TrainingRecords randomQuads(uint32_t count, uint64_t seed);
 
 // A 16x2 network on the inputs as they are, with losses and an optimiser of JSON; Adam's epsilon is large
 // (1e-3), so that a step follows from its gradient without dividing by nearly nothing.

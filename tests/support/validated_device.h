@@ -5,15 +5,15 @@
 
 namespace irradia::test {
 
-// One device per form of the records. Never destroyed: the validation layer's own statics are gone before
+// One device per form of the quads. Never destroyed: the validation layer's own statics are gone before
 // ours.
-inline Device& deviceWith(RecordAccess records) {
+inline Device& deviceWith(QuadAccess quads) {
     static Device* devices[2] = {};
-    Device*& device = devices[records == RecordAccess::Texel ? 0 : 1];
+    Device*& device = devices[quads == QuadAccess::Texel ? 0 : 1];
     if (!device) {
         DeviceOptions options;
         options.validation = true;
-        options.records = records;
+        options.quads = quads;
         device = new Device(options);
     }
     return *device;

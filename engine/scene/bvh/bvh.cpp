@@ -11,7 +11,7 @@ namespace {
 
 constexpr uint64_t kBindingLimit = uint64_t{128} << 20; // bytes: maxStorageBufferRange of lavapipe
 constexpr uint32_t kWidth = gpu::kBvhWidth;
-constexpr uint32_t kItem = gpu::kItemRecords;
+constexpr uint32_t kItem = gpu::kItemQuads;
 
 // (Not GLM's floatBitsToUint: its vector form breaks strict aliasing.)
 glm::uvec3 bitsOf(const glm::vec3& v) {
@@ -65,7 +65,7 @@ QuantisedAxis quantise(const std::vector<Bounds>& children, int axis) {
     return out;
 }
 
-// Writes the collapsed tree as records, depth first: a node's children, then the children of its first child.
+// Writes the collapsed tree as quads, depth first: a node's children, then the children of its first child.
 class Encoder {
 public:
     Encoder(const Scene& scene, const BinaryTree& tree, const Collapse& collapse)
@@ -74,14 +74,14 @@ public:
         , collapse_(collapse) {}
 
     Bvh encode() {
-        bvh_.records.resize(kItem);
+        bvh_.quads.resize(kItem);
         std::vector<Open> open{{0, 0, 1}};
         while (!open.empty()) {
             const Open node = open.back();
             open.pop_back();
             const std::vector<uint32_t> children = collapse_.childrenOf(node.binary);
-            const auto firstChild = static_cast<uint32_t>(bvh_.records.size() / kItem);
-            bvh_.records.resize(bvh_.records.size() + children.size() * kItem);
+            const auto firstChild = static_cast<uint32_t>(bvh_.quads.size() / kItem);
+            bvh_.quads.resize(bvh_.quads.size() + children.size() * kItem);
             writeNode(node.item, firstChild, children);
             for (auto k = static_cast<uint32_t>(children.size()); k-- > 0;) {
                 if (tree_[children[k]].isLeaf())
@@ -114,12 +114,11 @@ private:
         const auto biased = [](const QuantisedAxis& axis) {
             return static_cast<uint32_t>(axis.exponent + 127);
         };
-        glm::uvec4* records = &bvh_.records[size_t{item} * kItem];
-        records[0] =
+        glm::uvec4* quads = &bvh_.quads[size_t{item} * kItem];
+        quads[0] =
             glm::uvec4(bitsOf({x.origin, y.origin, z.origin}), biased(x) | biased(y) << 8 | biased(z) << 16);
-        records[1] = glm::uvec4(x.lower, y.lower, z.lower, x.upper);
-        records[2] =
-            glm::uvec4(y.upper, z.upper, firstChild << gpu::kGroupBits, (1u << children.size()) - 1u);
+        quads[1] = glm::uvec4(x.lower, y.lower, z.lower, x.upper);
+        quads[2] = glm::uvec4(y.upper, z.upper, firstChild << gpu::kGroupBits, (1u << children.size()) - 1u);
     }
 
     void writeTriangle(uint32_t item, uint32_t primitive) {
@@ -128,10 +127,10 @@ private:
         const glm::vec3 e1 = scene_.vertices[v.y].position - p0;
         const glm::vec3 e2 = scene_.vertices[v.z].position - p0;
         const float margin = 8 * 0x1p-24f * std::max(glm::length(e1), glm::length(e2));
-        glm::uvec4* records = &bvh_.records[size_t{item} * kItem];
-        records[0] = glm::uvec4(bitsOf(p0), primitive | gpu::kTriangleItem);
-        records[1] = glm::uvec4(bitsOf(e1), bitsOf(e2.x));
-        records[2] = glm::uvec4(bitsOf(e2.y), bitsOf(e2.z), bitsOf(margin), 0u);
+        glm::uvec4* quads = &bvh_.quads[size_t{item} * kItem];
+        quads[0] = glm::uvec4(bitsOf(p0), primitive | gpu::kTriangleItem);
+        quads[1] = glm::uvec4(bitsOf(e1), bitsOf(e2.x));
+        quads[2] = glm::uvec4(bitsOf(e2.y), bitsOf(e2.z), bitsOf(margin), 0u);
         ++bvh_.references;
     }
 
@@ -148,12 +147,12 @@ Bvh encode(const Scene& scene, const BinaryTree& tree, bool balanced) {
 
 Bvh emptyBvh() {
     Bvh bvh;
-    bvh.records = {glm::uvec4(0u, 0u, 0u, gpu::kTriangleItem), glm::uvec4(0u), glm::uvec4(0u)};
+    bvh.quads = {glm::uvec4(0u, 0u, 0u, gpu::kTriangleItem), glm::uvec4(0u), glm::uvec4(0u)};
     return bvh;
 }
 
 bool fits(const Bvh& bvh) {
-    return bvh.records.size() * sizeof(glm::uvec4) <= kBindingLimit;
+    return bvh.quads.size() * sizeof(glm::uvec4) <= kBindingLimit;
 }
 
 } // namespace
@@ -176,7 +175,7 @@ Bvh buildBvh(const Scene& scene, const BvhOptions& options) {
         bvh = encode(scene, buildMedianTree(scene), true);
     if (!fits(bvh))
         fail(ExitCode::BadData, "{}: the tree over {} triangles takes {} MiB, a device can bind 128 MiB",
-             scene.name, scene.triangles.size(), bvh.records.size() * sizeof(glm::uvec4) >> 20);
+             scene.name, scene.triangles.size(), bvh.quads.size() * sizeof(glm::uvec4) >> 20);
     return bvh;
 }
 

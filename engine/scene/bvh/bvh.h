@@ -10,7 +10,7 @@
 
 namespace irradia {
 
-// The same scene gives the same records, bit for bit, at any number of threads.
+// The same scene gives the same quads, bit for bit, at any number of threads.
 //   - item `root` is a node (of an empty scene: a triangle that no ray hits);
 //   - every triangle is in one leaf or more (a long one may be split among boxes);
 //   - a decoded child box holds the part of the triangles below it that lies in its ancestors' boxes;
@@ -18,7 +18,7 @@ namespace irradia {
 //   the
 //     stack's bottom).
 struct Bvh {
-    std::vector<glm::uvec4> records;
+    std::vector<glm::uvec4> quads;
     uint32_t root = 0;       // item
     uint32_t nodes = 0;      // inner nodes
     uint32_t references = 0; // triangle items; at least the number of triangles
@@ -35,7 +35,7 @@ struct BvhOptions {
         0.5f; // spatial splits may add this share of references (Stich et al. 2009), 0 = none
 };
 
-// Throws Error(BadData) when the records would not fit the 128 MiB every device can bind.
+// Throws Error(BadData) when the quads would not fit the 128 MiB every device can bind.
 Bvh buildBvh(const Scene& scene, const BvhOptions& options = {});
 
 } // namespace irradia

@@ -8,9 +8,9 @@
 #include "lib/rng.glsl"
 #include "pixels.glsl"
 
-RECORDS_READ(0, picture);
-RECORDS_WRITE(1, inputs);
-RECORDS_WRITE(2, targets);
+QUADS_READ(0, picture);
+QUADS_WRITE(1, inputs);
+QUADS_WRITE(2, targets);
 layout(push_constant) uniform Push { DrawParams params; };
 
 uint drawPixel(uint row) {
@@ -24,9 +24,9 @@ void main() {
     uint row = gl_GlobalInvocationID.x;
     if (row >> params.log2Rows != 0u) return;
     uint pixel = drawPixel(row);
-    uvec4 pair = loadRecord(picture, pixel / kPixelsPerRecord);
+    uvec4 pair = loadQuad(picture, pixel / kPixelsPerRecord);
     uvec2 halves = (pixel & 1u) == 0u ? pair.xy : pair.zw;
     vec4 colour = vec4(unpackHalf2x16(halves.x), unpackHalf2x16(halves.y));
-    storeRecord(inputs, row, floatBitsToUint(vec4(pixelPlace(pixel, params.width, params.height), 0.0, 0.0)));
-    storeRecord(targets, row, floatBitsToUint(colour));
+    storeQuad(inputs, row, floatBitsToUint(vec4(pixelPlace(pixel, params.width, params.height), 0.0, 0.0)));
+    storeQuad(targets, row, floatBitsToUint(colour));
 }

@@ -4,12 +4,12 @@
 #include "lib/kernel.glsl"
 #include "pixels.glsl"
 
-RECORDS_WRITE(0, inputs);
+QUADS_WRITE(0, inputs);
 layout(push_constant) uniform Push { ListParams params; };
 
 void main() {
     uint row = gl_GlobalInvocationID.x;
     if (row >= params.rows) return;
     uint pixel = min(params.first + row, params.width * params.height - 1u);
-    storeRecord(inputs, row, floatBitsToUint(vec4(pixelPlace(pixel, params.width, params.height), 0.0, 0.0)));
+    storeQuad(inputs, row, floatBitsToUint(vec4(pixelPlace(pixel, params.width, params.height), 0.0, 0.0)));
 }

@@ -8,7 +8,7 @@
 uvec4 loadEnvironment(int x, int y) {
     int w = int(frame.environmentWidth);
     int wrapped = x < 0 ? x + w : (x >= w ? x - w : x);
-    return loadRecord(environment, clamp(y, 0, int(frame.environmentHeight) - 1) * w + clamp(wrapped, 0, w - 1));
+    return loadQuad(environment, clamp(y, 0, int(frame.environmentHeight) - 1) * w + clamp(wrapped, 0, w - 1));
 }
 
 // Radiance at equirectangular (u, v), bilinear at texel centres.

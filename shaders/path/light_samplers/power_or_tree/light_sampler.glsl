@@ -13,13 +13,13 @@ float shareOfTriangles() { return kHasEnvironment && kHasEmitters ? 1.0 - frame.
 // Of light sampling to choose this light among the triangles.
 float lightChance(uint light, Receiver receiver) {
     if (kHasLightTree) return chanceOfLight(light, receiver);
-    return uintBitsToFloat(loadRecord(lights, light).w);
+    return uintBitsToFloat(loadQuad(lights, light).w);
 }
 
 LightChoice chooseTriangleLight(Receiver receiver, uvec4 random) {
     if (kHasLightTree) return chooseLight(receiver, random.x);
     uint light = uniformIndex(random.x, frame.lightCount);
-    uvec4 entry = loadRecord(lights, light);
+    uvec4 entry = loadQuad(lights, light);
     light = unitFloat(aliasBits(random, frame.lightCount)) < uintBitsToFloat(entry.x) ? light : entry.y;
     return LightChoice(light, lightChance(light, receiver));
 }

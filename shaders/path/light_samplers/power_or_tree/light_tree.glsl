@@ -23,9 +23,9 @@ float cosOfExcess(float cosA, float cosB) {
 // Power over squared distance, times two cosines at their largest for a direction to the point from within the node's
 // sphere: to a normal in the node's cone, and to the receiver's normal: the paper's importance.
 LightBranch lightBranch(uint node, Receiver receiver) {
-    uint at = frame.lightCount + node * kLightNodeRecords;
-    vec4 sphere = uintBitsToFloat(loadRecord(lights, at));
-    uvec4 r = loadRecord(lights, at + 1u);
+    uint at = frame.lightCount + node * kLightNodeQuads;
+    vec4 sphere = uintBitsToFloat(loadQuad(lights, at));
+    uvec4 r = loadQuad(lights, at + 1u);
     vec3 to = receiver.point - sphere.xyz;
     float squared = dot(to, to);
     float squaredRadius = sphere.w * sphere.w;
@@ -53,7 +53,7 @@ LightPair lightPair(uint child, Receiver receiver) {
     return LightPair(a.importance / max(sum, 1e-37), a.child, b.child, sum > 1e-37);
 }
 
-uint rootChild() { return loadRecord(lights, frame.lightCount + 1u).w; }
+uint rootChild() { return loadQuad(lights, frame.lightCount + 1u).w; }
 
 LightChoice chooseLight(Receiver receiver, uint random) {
     uint child = rootChild();
@@ -74,7 +74,7 @@ LightChoice chooseLight(Receiver receiver, uint random) {
 
 // Of chooseLight to choose this light.
 float chanceOfLight(uint light, Receiver receiver) {
-    uint trail = loadRecord(lights, light).x;
+    uint trail = loadQuad(lights, light).x;
     uint child = rootChild();
     float chance = 1.0;
     while ((child & kLightLeaf) == 0u) {

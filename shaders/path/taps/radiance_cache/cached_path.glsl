@@ -101,8 +101,8 @@ void ask(bool asks, CachedPath c, CacheInputs inputs, vec3 weight) {
     uint row = subgroupBroadcastFirst(base) + subgroupBallotExclusiveBitCount(ballot);
     if (!asks) return;
     [[unroll]] for (uint q = 0u; q < kCacheInputQuads; ++q)
-        storeRecord(queries, quadIndex(row, q, kCacheInputQuads), floatBitsToUint(inputs.quads[q]));
-    storeRecord(queryWeights, row, uvec4(floatBitsToUint(weight), c.path));
+        storeQuad(queries, quadIndex(row, q, kCacheInputQuads), floatBitsToUint(inputs.quads[q]));
+    storeQuad(queryWeights, row, uvec4(floatBitsToUint(weight), c.path));
 }
 
 uint vertexAt(CachedPath c, uint vertex) {
@@ -131,7 +131,7 @@ void recordVertex(inout CachedPath c, CacheInputs inputs) {
 void endInCache(CachedPath c, CacheInputs inputs) {
     closeVertex(c);
     [[unroll]] for (uint q = 0u; q < kCacheInputQuads; ++q)
-        storeRecord(trainingQueries, quadIndex(rule.firstTraining + c.training - 1u, q, kCacheInputQuads), floatBitsToUint(inputs.quads[q]));
+        storeQuad(trainingQueries, quadIndex(rule.firstTraining + c.training - 1u, q, kCacheInputQuads), floatBitsToUint(inputs.quads[q]));
     uint at = (c.training - 1u) * kTrainingPathVectors;
     trainingPaths[at].w = c.vertices;
     trainingPaths[at + 1u] = uvec4(0u, 0u, 0u, 1u);

@@ -1,9 +1,9 @@
 // A radiance cache listens: paths ask it and end, and record what it learns from. What a tap provides: taps/none.
 #include "shared/cache.h"
 
-RECORDS_WRITE(TAP_BINDING + 3, queries);
-RECORDS_WRITE(TAP_BINDING + 4, queryWeights);
-RECORDS_WRITE(TAP_BINDING + 5, trainingQueries);
+QUADS_WRITE(TAP_BINDING + 3, queries);
+QUADS_WRITE(TAP_BINDING + 4, queryWeights);
+QUADS_WRITE(TAP_BINDING + 5, trainingQueries);
 COUNTERS(TAP_BINDING + 6, cacheCounters);
 layout(set = 0, binding = TAP_BINDING + 7, std430) buffer Radiance { vec4 radiance[]; };
 layout(set = 0, binding = TAP_BINDING + 8, std140) uniform Rule { CacheRule rule; };

@@ -2,7 +2,7 @@
 // as an alias table by radiance and solid angle.
 #pragma once
 
-#include "engine/scene/scene_records.h"
+#include "engine/scene/packed_scene.h"
 
 namespace irradia {
 
@@ -13,8 +13,8 @@ std::vector<double> emissiveLuminances(const Scene& scene);
 // rectangle) it lowers the error by nothing, at up to 15 % of a frame.
 inline constexpr uint32_t kLightTreeFrom = 8;
 
-struct LightRecords {
-    std::vector<glm::uvec4> records; // one per light, then the hierarchy's nodes if there is one
+struct PackedLights {
+    std::vector<glm::uvec4> quads; // one per light, then the hierarchy's nodes if there is one
     std::vector<uint32_t> lightOf; // per triangle: its light, gpu::kNoLight where its material does not emit
     uint32_t count = 0;            // lights
 };
@@ -22,7 +22,7 @@ struct LightRecords {
 // Every triangle whose material is among the emitters is a light. Power = area x mean luminance of the
 // emission (of the whole emissive texture) x sides; a light without power is never chosen while another has
 // some.
-LightRecords packLights(const Scene& scene, const std::vector<bool>& emitters);
+PackedLights packLights(const Scene& scene, const std::vector<bool>& emitters);
 
 // Of a light sample going to the environment: a half where triangles emit too.
 float environmentProbability(const Scene& scene, const SceneNeeds& needs);
@@ -30,7 +30,7 @@ float environmentProbability(const Scene& scene, const SceneNeeds& needs);
 // Texels and alias table. A constant becomes a small picture, so that sampling stays by solid angle. Weights
 // are the integrals of the bilinear radiance's luminance over each texel, times its solid angle. A picture of
 // more than maxTexels is reduced, with a warning.
-void packEnvironment(const Environment& environment, SceneRecords& out,
+void packEnvironment(const Environment& environment, PackedScene& out,
                      uint64_t maxTexels = kMaxBindingBytes / sizeof(glm::uvec4));
 
 } // namespace irradia

@@ -1,4 +1,4 @@
-#include "engine/graph/pass_record.h"
+#include "engine/graph/declared_pass.h"
 #include "engine/error.h"
 #include <bit>
 
@@ -40,7 +40,7 @@ RangeLimit limitOf(const KernelBinding& binding, const VkPhysicalDeviceLimits& l
     }
 }
 
-void checkRange(const PassRecord& pass, const KernelBinding& wanted, const BufferRange& range,
+void checkRange(const DeclaredPass& pass, const KernelBinding& wanted, const BufferRange& range,
                 const VkPhysicalDeviceLimits& limits) {
     const RangeLimit limit = limitOf(wanted, limits);
     const std::string& buffer = range.buffer->name();
@@ -83,7 +83,7 @@ Access access(const BufferRange& range, AccessKind kind, bool read, bool write) 
 
 } // namespace
 
-void checkAgainstKernel(const PassRecord& pass, const Device& device) {
+void checkAgainstKernel(const DeclaredPass& pass, const Device& device) {
     const std::vector<KernelBinding>& wanted = pass.kernel->bindings();
     if (pass.bindings.size() != wanted.size())
         fail(ExitCode::Internal, "pass {}: {} buffers are bound, kernel {} has {} bindings", pass.name,
@@ -101,7 +101,7 @@ void checkAgainstKernel(const PassRecord& pass, const Device& device) {
              pass.name, pass.pushBytes, pass.kernel->name(), pass.kernel->pushBytes());
 }
 
-ScheduledPass accessesOf(const PassRecord& pass) {
+ScheduledPass accessesOf(const DeclaredPass& pass) {
     ScheduledPass scheduled{pass.name, {}};
     for (size_t i = 0; i < pass.bindings.size(); ++i)
         scheduled.accesses.push_back(access(pass.bindings[i].range, kindOf(pass.kernel->bindings()[i]),

@@ -7,7 +7,7 @@
 
 namespace irradia {
 
-struct PassRecord {
+struct DeclaredPass {
     enum class Command { None, Dispatch, DispatchIndirect, Fill, Copy, Update };
 
     std::string name;
@@ -26,9 +26,9 @@ struct PassRecord {
 };
 
 // Throws Error(Internal) naming pass and binding where the bindings or push constants are not the kernel's.
-void checkAgainstKernel(const PassRecord& pass, const Device& device);
+void checkAgainstKernel(const DeclaredPass& pass, const Device& device);
 
 // What the pass accesses, for the schedule.
-ScheduledPass accessesOf(const PassRecord& pass);
+ScheduledPass accessesOf(const DeclaredPass& pass);
 
 } // namespace irradia

@@ -1,4 +1,4 @@
-#include "engine/scene/lights/light_records.h"
+#include "engine/scene/lights/packed_lights.h"
 
 #include "engine/scene/lights/alias_table.h"
 #include "engine/scene/lights/environment_reduction.h"
@@ -95,9 +95,9 @@ float environmentProbability(const Scene& scene, const SceneNeeds& needs) {
     return scene.environment.isBlack() ? 0.0f : 0.5f;
 }
 
-LightRecords packLights(const Scene& scene, const std::vector<bool>& emitters) {
+PackedLights packLights(const Scene& scene, const std::vector<bool>& emitters) {
     const std::vector<double> luminances = emissiveLuminances(scene);
-    LightRecords out;
+    PackedLights out;
     out.lightOf.resize(scene.triangles.size(), gpu::kNoLight);
     std::vector<TreeLight> lights;
     std::vector<uint32_t> primitives;
@@ -114,13 +114,13 @@ LightRecords packLights(const Scene& scene, const std::vector<bool>& emitters) {
         primitives.push_back(static_cast<uint32_t>(i));
     }
     if (out.count >= kLightTreeFrom)
-        packTree(lights, primitives, out.records);
+        packTree(lights, primitives, out.quads);
     else
-        packAliasTable(lights, primitives, out.records);
+        packAliasTable(lights, primitives, out.quads);
     return out;
 }
 
-void packEnvironment(const Environment& environment, SceneRecords& out, uint64_t maxTexels) {
+void packEnvironment(const Environment& environment, PackedScene& out, uint64_t maxTexels) {
     Environment picture = environment;
     if (picture.texels.empty()) {
         picture.width = 64;

@@ -1,7 +1,7 @@
-#include "engine/scene/scene_records.h"
+#include "engine/scene/packed_scene.h"
 
 #include "engine/error.h"
-#include "engine/scene/lights/light_records.h"
+#include "engine/scene/lights/packed_lights.h"
 #include "engine/scene/texture_packing.h"
 #include <algorithm>
 #include <bit>
@@ -16,15 +16,15 @@ uint32_t bits(float value) {
     return std::bit_cast<uint32_t>(value);
 }
 
-glm::uvec4 record(const glm::vec3& v, uint32_t w) {
+glm::uvec4 quad(const glm::vec3& v, uint32_t w) {
     return glm::uvec4(bits(v.x), bits(v.y), bits(v.z), w);
 }
-glm::uvec4 record(const glm::vec4& v) {
+glm::uvec4 quad(const glm::vec4& v) {
     return {bits(v.x), bits(v.y), bits(v.z), bits(v.w)};
 }
 
-void packGeometry(const Scene& scene, const std::vector<uint32_t>& lightOf, SceneRecords& out) {
-    out.geometry.reserve(scene.triangles.size() * gpu::kGeometryRecords);
+void packGeometry(const Scene& scene, const std::vector<uint32_t>& lightOf, PackedScene& out) {
+    out.geometry.reserve(scene.triangles.size() * gpu::kGeometryQuads);
     for (size_t i = 0; i < scene.triangles.size(); ++i) {
         const Triangle& t = scene.triangles[i];
         const Vertex& a = scene.vertices[t.vertex.x];
@@ -32,23 +32,23 @@ void packGeometry(const Scene& scene, const std::vector<uint32_t>& lightOf, Scen
         const Vertex& c = scene.vertices[t.vertex.z];
         const uint32_t handedness =
             (a.tangent.w < 0 ? 1u : 0u) | (b.tangent.w < 0 ? 2u : 0u) | (c.tangent.w < 0 ? 4u : 0u);
-        out.geometry.push_back(record(a.position, t.material));
-        out.geometry.push_back(record(b.position - a.position, lightOf[i]));
-        out.geometry.push_back(record(c.position - a.position, handedness));
+        out.geometry.push_back(quad(a.position, t.material));
+        out.geometry.push_back(quad(b.position - a.position, lightOf[i]));
+        out.geometry.push_back(quad(c.position - a.position, handedness));
         out.geometry.emplace_back(packOctahedral(a.normal), packOctahedral(b.normal),
                                   packOctahedral(c.normal), 0u);
     }
 }
 
-void packAttributes(const Scene& scene, SceneRecords& out) {
-    out.attributes.reserve(scene.triangles.size() * gpu::kAttributeRecords);
+void packAttributes(const Scene& scene, PackedScene& out) {
+    out.attributes.reserve(scene.triangles.size() * gpu::kAttributeQuads);
     for (const Triangle& t : scene.triangles) {
         const Vertex& a = scene.vertices[t.vertex.x];
         const Vertex& b = scene.vertices[t.vertex.y];
         const Vertex& c = scene.vertices[t.vertex.z];
-        out.attributes.push_back(record(glm::vec4(a.uv[0], b.uv[0])));
-        out.attributes.push_back(record(glm::vec4(c.uv[0], a.uv[1])));
-        out.attributes.push_back(record(glm::vec4(b.uv[1], c.uv[1])));
+        out.attributes.push_back(quad(glm::vec4(a.uv[0], b.uv[0])));
+        out.attributes.push_back(quad(glm::vec4(c.uv[0], a.uv[1])));
+        out.attributes.push_back(quad(glm::vec4(b.uv[1], c.uv[1])));
         out.attributes.emplace_back(packOctahedral(glm::vec3(a.tangent)),
                                     packOctahedral(glm::vec3(b.tangent)),
                                     packOctahedral(glm::vec3(c.tangent)), 0u);
@@ -59,7 +59,7 @@ bool isSpecular(const Material& m) {
     return m.specular > 0.0f || m.metallic > 0.0f;
 }
 
-void packMaterials(const Scene& scene, SceneRecords& out) {
+void packMaterials(const Scene& scene, PackedScene& out) {
     TexturePacker packer(scene);
     const auto use = [&](const TextureRef& ref, bool srgb, uint32_t bit) {
         if (ref.image >= 0) out.needs.textures |= bit;
@@ -112,20 +112,20 @@ void PlannedStates::include(const Scene& state) {
     for (const Material& material : state.materials) specular |= isSpecular(material);
 }
 
-std::array<glm::uvec4, kMaterialValueRecords> packMaterialValues(const Material& m) {
+std::array<glm::uvec4, kMaterialValueQuads> packMaterialValues(const Material& m) {
     const float r = (m.ior - 1.0f) / (m.ior + 1.0f);
-    return {record(glm::vec4(m.baseColor, m.metallic)), record(glm::vec4(m.emission, m.roughness)),
-            record(glm::vec4(r * r * m.specularColor, m.specular)),
+    return {quad(glm::vec4(m.baseColor, m.metallic)), quad(glm::vec4(m.emission, m.roughness)),
+            quad(glm::vec4(r * r * m.specularColor, m.specular)),
             glm::uvec4(bits(m.normalScale), m.doubleSided ? gpu::kMaterialDoubleSided : 0u, 0u, 0u)};
 }
 
-SceneRecords packScene(const Scene& scene, const PlannedStates& states) {
-    SceneRecords out;
+PackedScene packScene(const Scene& scene, const PlannedStates& states) {
+    PackedScene out;
     out.origin = scene.origin;
     out.states = states;
     out.states.include(scene);
-    LightRecords lights = packLights(scene, out.states.emitters);
-    out.lights = std::move(lights.records);
+    PackedLights lights = packLights(scene, out.states.emitters);
+    out.lights = std::move(lights.quads);
     out.lightCount = lights.count;
     out.needs.emitters = lights.count > 0;
     out.needs.lightTree = lights.count >= kLightTreeFrom;

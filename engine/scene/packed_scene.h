@@ -1,4 +1,4 @@
-// A Scene packed into the records of shaders/shared/scene.h; no GPU involved.
+// A Scene packed into the quads of shaders/shared/scene.h; no GPU involved.
 #pragma once
 
 #include "engine/scene/scene.h"
@@ -28,7 +28,7 @@ struct PlannedStates {
     void include(const Scene& state);
 };
 
-struct SceneRecords {
+struct PackedScene {
     std::vector<glm::uvec4> geometry;
     std::vector<glm::uvec4> attributes; // empty in scenes without textures
     std::vector<glm::uvec4> materials;
@@ -52,13 +52,13 @@ struct SceneRecords {
 inline constexpr uint64_t kMaxBindingBytes = 128ull << 20;
 
 // Throws Error(OutOfMemory) naming the part that does not fit one binding.
-SceneRecords packScene(const Scene& scene, const PlannedStates& states = {});
+PackedScene packScene(const Scene& scene, const PlannedStates& states = {});
 
 // Octahedral map of a unit vector (Cigolle et al. 2014); of a vector without direction gpu::kNoTangent.
 uint32_t packOctahedral(const glm::vec3& n);
 
-// The first records of a material: all but its textures.
-inline constexpr uint32_t kMaterialValueRecords = 4;
-std::array<glm::uvec4, kMaterialValueRecords> packMaterialValues(const Material& material);
+// The first quads of a material: all but its textures.
+inline constexpr uint32_t kMaterialValueQuads = 4;
+std::array<glm::uvec4, kMaterialValueQuads> packMaterialValues(const Material& material);
 
 } // namespace irradia

@@ -1,5 +1,5 @@
-// A scene packed into the records of shaders/shared/scene.h: decoded, they give back the scene's data.
-#include "engine/scene/lights/light_records.h"
+// A scene packed into the quads of shaders/shared/scene.h: decoded, they give back the scene's data.
+#include "engine/scene/lights/packed_lights.h"
 #include "engine/scene/texture_packing.h"
 #include "tests/reference/random.h"
 #include "tests/reference/simple_scenes.h"
@@ -72,23 +72,23 @@ std::vector<glm::vec3> manyNormals() {
     return normals;
 }
 
-uint64_t textureCount(const SceneRecords& records) {
-    return records.textures.size();
+uint64_t textureCount(const PackedScene& packed) {
+    return packed.textures.size();
 }
 
 } // namespace
 
 TEST_CASE("geometry and attributes decode to the vertices") {
     const Scene scene = sceneOfNormals(manyNormals());
-    const SceneRecords records = packScene(scene);
-    REQUIRE(records.geometry.size() == scene.triangles.size() * gpu::kGeometryRecords);
-    REQUIRE(records.attributes.size() == scene.triangles.size() * gpu::kAttributeRecords);
+    const PackedScene packed = packScene(scene);
+    REQUIRE(packed.geometry.size() == scene.triangles.size() * gpu::kGeometryQuads);
+    REQUIRE(packed.attributes.size() == scene.triangles.size() * gpu::kAttributeQuads);
     // A code is off by e = 1 / 65534 at most in each axis: (e, e, 2 e) before a division by a length of 1 /
     // sqrt(3) or more.
     const double kOctahedralError = std::sqrt(18.0) / 65534.0;
     for (size_t i = 0; i < scene.triangles.size(); ++i) {
-        const glm::uvec4* g = &records.geometry[i * gpu::kGeometryRecords];
-        const glm::uvec4* a = &records.attributes[i * gpu::kAttributeRecords];
+        const glm::uvec4* g = &packed.geometry[i * gpu::kGeometryQuads];
+        const glm::uvec4* a = &packed.attributes[i * gpu::kAttributeQuads];
         const Vertex* v = &scene.vertices[3 * i];
         REQUIRE(glm::vec3(floats(g[0])) == v[0].position);
         REQUIRE(glm::vec3(floats(g[1])) == v[1].position - v[0].position);
@@ -109,8 +109,8 @@ TEST_CASE("geometry and attributes decode to the vertices") {
 TEST_CASE("a missing tangent has the code that no direction has") {
     Scene scene = sceneOfNormals(manyNormals());
     scene.vertices[1].tangent = glm::vec4(0.0f);
-    const SceneRecords records = packScene(scene);
-    CHECK(records.attributes[3].y == gpu::kNoTangent);
+    const PackedScene packed = packScene(scene);
+    CHECK(packed.attributes[3].y == gpu::kNoTangent);
 }
 
 TEST_CASE("materials hold their factors; F0 is that of ior times the specular colour") {
@@ -122,9 +122,9 @@ TEST_CASE("materials hold their factors; F0 is that of ior times the specular co
     m.emission = {4.0f, 5.0f, 6.0f};
     m.doubleSided = true;
     scene.materials = {Material{}, m};
-    const SceneRecords records = packScene(scene);
-    REQUIRE(records.materials.size() == 2 * gpu::kMaterialRecords);
-    const glm::uvec4* r = &records.materials[gpu::kMaterialRecords];
+    const PackedScene packed = packScene(scene);
+    REQUIRE(packed.materials.size() == 2 * gpu::kMaterialQuads);
+    const glm::uvec4* r = &packed.materials[gpu::kMaterialQuads];
     CHECK(floats(r[0]) == glm::vec4(m.baseColor, m.metallic));
     CHECK(floats(r[1]) == glm::vec4(m.emission, m.roughness));
     const glm::dvec3 f0 = std::pow(0.8 / 2.8, 2.0) * glm::dvec3(m.specularColor);
@@ -132,11 +132,11 @@ TEST_CASE("materials hold their factors; F0 is that of ior times the specular co
     CHECK(floats(r[2]).w == m.specular);
     CHECK(glm::uintBitsToFloat(r[3].x) == m.normalScale);
     CHECK(r[3].y == gpu::kMaterialDoubleSided);
-    CHECK(records.materials[3].y == 0u);
+    CHECK(packed.materials[3].y == 0u);
     for (int k = 0; k < 4; ++k) CHECK(r[4][k] == gpu::kNoTexture);
     CHECK((r[5].x == gpu::kNoTexture && r[5].y == gpu::kNoTexture));
-    CHECK(records.attributes.empty());
-    CHECK(records.needs.textures == 0u);
+    CHECK(packed.attributes.empty());
+    CHECK(packed.needs.textures == 0u);
 }
 
 TEST_CASE("what the scene needs of the kernels follows from its contents") {
@@ -172,19 +172,19 @@ TEST_CASE("a picture is stored once for each encoding, a record once for each wa
     a.baseColorTexture = plain;
     b.baseColorTexture = secondSet; // the same record: the set is in the code
     scene.materials = {a, b};
-    SceneRecords records = packScene(scene);
-    CHECK((textureCount(records) == 1 && records.texels.size() == 32));
-    CHECK(records.materials[4].x == 0u);
-    CHECK(records.materials[gpu::kMaterialRecords + 4].x == 1u);
+    PackedScene packed = packScene(scene);
+    CHECK((textureCount(packed) == 1 && packed.texels.size() == 32));
+    CHECK(packed.materials[4].x == 0u);
+    CHECK(packed.materials[gpu::kMaterialQuads + 4].x == 1u);
     b.baseColorTexture = clamped;
     scene.materials = {a, b};
-    records = packScene(scene);
-    CHECK((textureCount(records) == 2 && records.texels.size() == 32));
-    CHECK(records.textures[1] == glm::uvec4(0u, 8u, 4u, 2u));
+    packed = packScene(scene);
+    CHECK((textureCount(packed) == 2 && packed.texels.size() == 32));
+    CHECK(packed.textures[1] == glm::uvec4(0u, 8u, 4u, 2u));
     b.metallicRoughnessTexture = plain; // linear, no longer sRGB
     scene.materials = {a, b};
-    records = packScene(scene);
-    CHECK((textureCount(records) == 3 && records.texels.size() == 64));
+    packed = packScene(scene);
+    CHECK((textureCount(packed) == 3 && packed.texels.size() == 64));
 }
 
 TEST_CASE("texels are the decoded colours rounded to halves") {
@@ -193,12 +193,12 @@ TEST_CASE("texels are the decoded colours rounded to halves") {
     Material m;
     m.baseColorTexture.image = m.metallicRoughnessTexture.image = 0;
     scene.materials = {m};
-    const SceneRecords records = packScene(scene);
-    REQUIRE(records.texels.size() == 512);
-    for (const glm::uvec4& texture : records.textures) {
-        const bool srgb = texture.x == records.textures[records.materials[4].x >> 1].x;
+    const PackedScene packed = packScene(scene);
+    REQUIRE(packed.texels.size() == 512);
+    for (const glm::uvec4& texture : packed.textures) {
+        const bool srgb = texture.x == packed.textures[packed.materials[4].x >> 1].x;
         for (size_t i = 0; i < 256; ++i) {
-            const glm::uvec2 halves = records.texels[texture.x + i];
+            const glm::uvec2 halves = packed.texels[texture.x + i];
             const glm::vec4 texel(glm::unpackHalf2x16(halves.x), glm::unpackHalf2x16(halves.y));
             for (int k = 0; k < 4; ++k) {
                 const double c = scene.images[0].rgba[4 * i + k] / 255.0;
@@ -242,16 +242,16 @@ TEST_CASE("pictures beyond the budget are halved, largest first, and keep their 
 
 TEST_CASE("from some number of lights on their hierarchy follows them, bounds not narrower than its own") {
     const Scene scene = test::manyEmitters(100);
-    const SceneRecords records = packScene(scene);
-    CHECK((records.lightCount == 100 && records.needs.lightTree));
-    REQUIRE(records.lights.size() == 100 + 199 * gpu::kLightNodeRecords);
+    const PackedScene packed = packScene(scene);
+    CHECK((packed.lightCount == 100 && packed.needs.lightTree));
+    REQUIRE(packed.lights.size() == 100 + 199 * gpu::kLightNodeQuads);
     for (uint32_t i = 0; i < 100; ++i) {
-        CHECK(records.lights[i].z == i); // its primitive
-        CHECK(records.geometry[i * gpu::kGeometryRecords + 1].w == i);
-        uint32_t node = 0, trail = records.lights[i].x;
+        CHECK(packed.lights[i].z == i); // its primitive
+        CHECK(packed.geometry[i * gpu::kGeometryQuads + 1].w == i);
+        uint32_t node = 0, trail = packed.lights[i].x;
         while (true) {
-            const glm::uvec4& bounds = records.lights[100 + node * gpu::kLightNodeRecords];
-            const glm::uvec4& cone = records.lights[101 + node * gpu::kLightNodeRecords];
+            const glm::uvec4& bounds = packed.lights[100 + node * gpu::kLightNodeQuads];
+            const glm::uvec4& cone = packed.lights[101 + node * gpu::kLightNodeQuads];
             const glm::vec4 sphere = floats(bounds);
             for (uint32_t k = 0; k < 3; ++k) {
                 const Vec3 corner(scene.vertices[3 * i + k].position);
@@ -275,24 +275,24 @@ TEST_CASE("from some number of lights on their hierarchy follows them, bounds no
         }
         CHECK(trail == 0u);
     }
-    CHECK(floats(records.lights[101]).z == 1.0f); // the root has all the power
+    CHECK(floats(packed.lights[101]).z == 1.0f); // the root has all the power
 }
 
 TEST_CASE("lights have the mass of their power, the environment's texels that of luminance and solid angle") {
     constexpr uint32_t kCount = kLightTreeFrom - 1;
     const Scene scene = test::manyEmitters(kCount);
-    const SceneRecords records = packScene(scene);
-    REQUIRE(records.lights.size() == kCount);
-    CHECK((records.lightCount == kCount && !records.needs.lightTree));
+    const PackedScene packed = packScene(scene);
+    REQUIRE(packed.lights.size() == kCount);
+    CHECK((packed.lightCount == kCount && !packed.needs.lightTree));
     double total = 0.0;
     for (uint32_t i = 0; i < kCount; ++i) {
-        CHECK(records.lights[i].z == i); // its primitive
-        CHECK(records.geometry[i * gpu::kGeometryRecords + 1].w == i);
-        total += glm::uintBitsToFloat(records.lights[i].w);
+        CHECK(packed.lights[i].z == i); // its primitive
+        CHECK(packed.geometry[i * gpu::kGeometryQuads + 1].w == i);
+        total += glm::uintBitsToFloat(packed.lights[i].w);
     }
     CHECK(std::abs(total - 1.0) < 1e-5);
 
-    SceneRecords sky;
+    PackedScene sky;
     packEnvironment(test::skyWithSun(16, 8), sky);
     REQUIRE((sky.environmentWidth == 16u && sky.environmentHeight == 8u));
     double mass = 0.0;
@@ -301,7 +301,7 @@ TEST_CASE("lights have the mass of their power, the environment's texels that of
 
     Environment constant;
     constant.constant = {1.0f, 2.0f, 3.0f};
-    SceneRecords even;
+    PackedScene even;
     packEnvironment(constant, even);
     REQUIRE(even.environment.size() == size_t(even.environmentWidth) * even.environmentHeight);
     for (size_t i = 0; i < even.environment.size(); ++i) {

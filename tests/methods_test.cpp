@@ -1,5 +1,5 @@
-// What it takes to add a cache or a method: a class and a row of the methods' table each, which the session then
-// renders like those of the project.
+// What it takes to add a cache or a method: a class and a row of the methods' table each, which the session
+// then renders like those of the project.
 #include "engine/error.h"
 #include "nrc/cache/cache_queries.h"
 #include "nrc/cache/radiance_scale.h"

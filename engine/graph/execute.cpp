@@ -184,7 +184,8 @@ void FrameGraph::State::submitAll() {
 }
 
 void FrameGraph::State::requireIdle(const std::string& what) const {
-    if (isSubmitted) fail(ExitCode::Internal, "{}: what was submitted before is to be waited for first", what);
+    if (isSubmitted)
+        fail(ExitCode::Internal, "{}: what was submitted before is to be waited for first", what);
 }
 
 // Whatever happened, the next frame starts with an empty graph.

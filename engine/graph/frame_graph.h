@@ -87,8 +87,8 @@ public:
 
     // Records and submits all passes. Of a list that is cut into slices the last alone may still be at work
     // when it returns, so that at most about 100 ms are left for the host to use. Until wait() kernels and
-    // buffers must live, and nothing may be declared or submitted: both are refused. Other graphs, uploads and
-    // downloads may be used, and come after what was submitted.
+    // buffers must live, and nothing may be declared or submitted: both are refused. Other graphs, uploads
+    // and downloads may be used, and come after what was submitted.
     void submit();
     // Until what was submitted is done; returns at once where nothing was. Then the graph is empty again,
     // whether or not it, or submit(), throws.

@@ -46,7 +46,7 @@ struct FrameGraph::State {
     bool cutNext = false;
     bool isSubmitted = false;      // and not waited for
     std::optional<Slice> inFlight; // the last slice of these passes
-    uint64_t list = nextList(); // number of these passes
+    uint64_t list = nextList();    // number of these passes
     std::vector<std::function<void()>> whenExecuted;
     std::string section; // of the passes to come
     DescriptorSets sets;

@@ -83,7 +83,7 @@ TEST_CASE("the cache trains to the same bits with one thread or two, with barrie
         images.push_back(readExr(file));
     }
     for (const LayeredImage& image : images) CHECK(image.channels == images[0].channels);
-    for (const char* name : {"cache", "model", "trainingSteps"})
+    for (const char* name : {"methodOptions", "preset", "model", "trainingSteps"})
         CHECK(images[0].attributes.count(std::string("irradia.") + name) == 1);
 }
 

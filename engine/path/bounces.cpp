@@ -60,26 +60,26 @@ void Bounces::intersect(FrameGraph& graph, const gpu::WaveParams& params) const 
         .dispatchIndirect(traceArguments_);
 }
 
-void Bounces::handleEscapedRays(FrameGraph& graph, const gpu::WaveParams& params, const PathTap* tap) const {
-    Pass pass = graph.pass(handleEscapedRays_);
-    pass.read(constants_)
-        .read(buffers_.rays[params.queueParity])
-        .read(buffers_.hits)
-        .read(buffers_.counters)
-        .readWrite(buffers_.radiance)
-        .read(scene_.lights)
-        .read(scene_.environment);
-    if (tap) pass.bind(tap->light);
-    pass.push(params).dispatchIndirect(itemArguments_);
-}
-
-void Bounces::handleEmissiveHits(FrameGraph& graph, const gpu::WaveParams& params, const PathTap* tap) const {
-    Pass pass = graph.pass(handleEmissiveHits_);
+// Of what a ray has met, light for its path: what kernels of that kind bind first.
+Pass Bounces::handling(FrameGraph& graph, const Kernel& kernel, const gpu::WaveParams& params) const {
+    Pass pass = graph.pass(kernel);
     pass.read(constants_)
         .read(buffers_.rays[params.queueParity])
         .read(buffers_.hits)
         .read(buffers_.counters)
         .readWrite(buffers_.radiance);
+    return pass;
+}
+
+void Bounces::handleEscapedRays(FrameGraph& graph, const gpu::WaveParams& params, const PathTap* tap) const {
+    Pass pass = handling(graph, handleEscapedRays_, params);
+    pass.read(scene_.lights).read(scene_.environment);
+    if (tap) pass.bind(tap->light);
+    pass.push(params).dispatchIndirect(itemArguments_);
+}
+
+void Bounces::handleEmissiveHits(FrameGraph& graph, const gpu::WaveParams& params, const PathTap* tap) const {
+    Pass pass = handling(graph, handleEmissiveHits_, params);
     readSurfaces(pass, scene_).read(scene_.lights);
     if (tap) pass.bind(tap->light);
     pass.push(params).dispatchIndirect(itemArguments_);

@@ -15,12 +15,13 @@ public:
 
     // Takes the rays of number params.depth on: traces them unless their hits are known, adds the light that
     // they meet, and where they scatter lets a light sample and the next ray follow.
-    void add(FrameGraph& graph, const gpu::WaveParams& params, bool areTraced, bool scatter,
+    void add(FrameGraph& graph, const gpu::WaveParams& params, bool areTraced, bool scatters,
              const PathTap* tap) const;
 
 private:
     void begin(FrameGraph& graph, const gpu::WaveParams& params, bool areTraced) const;
     void intersect(FrameGraph& graph, const gpu::WaveParams& params) const;
+    Pass handling(FrameGraph& graph, const Kernel& kernel, const gpu::WaveParams& params) const;
     void handleEscapedRays(FrameGraph& graph, const gpu::WaveParams& params, const PathTap* tap) const;
     void handleEmissiveHits(FrameGraph& graph, const gpu::WaveParams& params, const PathTap* tap) const;
     void scatter(FrameGraph& graph, const gpu::WaveParams& params, const PathTap* tap) const;

@@ -30,7 +30,7 @@ struct Wave {
 // lanes is idle and a frame of many samples is few passes.
 class Waves {
 public:
-    // Pixels of a wave begin at multiples of it: ranges of buffers of whole records are aligned for any
+    // Pixels of a wave begin at multiples of it: ranges of buffers of whole quads are aligned for any
     // device (256 bytes).
     static constexpr uint32_t kPixelAlignment = 16;
 

@@ -4,6 +4,7 @@
 # shellcheck disable=SC2016 # the tables' quotes are markdown's
 set -eu
 cd "$(dirname "$0")/../.."
+. samples/benchmarks/tables.sh
 
 usage() {
     cat <<'END'
@@ -104,27 +105,4 @@ samples_table() {
     done
 }
 
-case "${1:-}" in
--h | --help)
-    usage
-    exit 0
-    ;;
-esac
-[ $# -gt 0 ] || set -- worth samples
-for table in "$@"; do
-    case $table in
-    worth | samples) ;;
-    *)
-        usage >&2
-        exit 64
-        ;;
-    esac
-done
-mkdir -p $folder
-MESA_SHADER_CACHE_DIR=${MESA_SHADER_CACHE_DIR:-$PWD/build/shader-cache}
-export MESA_SHADER_CACHE_DIR
-echo "Commit $(git describe --always --dirty); device $(build/bin/irradia devices | sed -n '2s/  \{2,\}/, /gp')"
-for table in "$@"; do
-    echo
-    "${table}_table"
-done
+write_tables "worth samples" "$@"

@@ -1,5 +1,5 @@
 // The numbers of a path's decisions under --sampler sobol: the twin's bits, points that are spread as Sobol'
-// says, uniform over pixels, and independent of other blocks, pixels and seeds.
+// says over samples and over the pixels of a tile, uniform, and independent of other blocks, tiles and seeds.
 #include "kernels/shaders.h"
 #include "shared/path.h"
 #include "tests/reference/sobol.h"
@@ -18,19 +18,22 @@ namespace {
 
 constexpr uint32_t kSeed = 3;
 constexpr uint32_t kPoints = 1u << 16; // of a sequence
+constexpr uint32_t kWidth = 32768;     // of the picture
+constexpr uint32_t kTileSide = 16;
 
 using Points = std::vector<glm::uvec4>;
 
 // `samples` samples of each of `pixels` pixels, one pixel after the other.
 Points draw(const glm::uvec4& first, uint32_t pixels, uint32_t samples, uint32_t which = gpu::kSamplerBlock,
-            uint32_t sampler = gpu::kSamplerSobol) {
+            uint32_t sampler = gpu::kSamplerSobol, uint32_t width = kWidth) {
     static std::map<uint32_t, test::KernelHarness> kernels;
     const auto kernel = kernels
                             .try_emplace(sampler, kernels::sampler_path_bits,
                                          std::vector<Specialisation>{{gpu::kConstantSampler, sampler}})
                             .first;
     const uint32_t count = pixels * samples;
-    return kernel->second.run({}, gpu::SamplerHarnessParams{first, samples, count, which}, count, count);
+    return kernel->second.run({}, gpu::SamplerHarnessParams{first, samples, count, which, width}, count,
+                              count);
 }
 
 double unit(uint32_t bits) {
@@ -48,8 +51,9 @@ TEST_CASE("Sobol' points are the twin's, bit for bit") {
             const Points points = draw({12345, first, block, kSeed}, kPixels, kSamples);
             for (uint32_t i = 0; i < points.size(); ++i) {
                 const uint32_t sample = first + i % kSamples;
-                const auto keys = reference::sobolKeys(12345 + i / kSamples, sample >> 16, block, kSeed);
-                const Words twin = reference::shuffledScrambledSobol(sample & 0xffffu, keys);
+                const uint32_t pixel = 12345 + i / kSamples;
+                const auto keys = reference::pixelKeys(pixel, kWidth, sample >> 16, block, kSeed);
+                const Words twin = reference::pixelPoint(sample & 0xffffu, keys);
                 REQUIRE(points[i] == glm::uvec4(twin[0], twin[1], twin[2], twin[3]));
             }
         }
@@ -135,6 +139,25 @@ TEST_CASE("the first 2^m points of a pixel fill every elementary interval of a p
     CHECK(isSpread(whole.data(), 12));
 }
 
+TEST_CASE("a sample of 2^m x 2^m pixels in their place fills every elementary interval evenly") {
+    for (const uint32_t sample : {0u, 5u, 65535u, 65536u}) {
+        // The second tile of a picture that is one tile wide.
+        const Points rows = draw({256, sample, 2, kSeed}, 256, 1, gpu::kSamplerBlock, gpu::kSamplerSobol, kTileSide);
+        Points inOrder;
+        for (uint32_t i = 0; i < 256; ++i) {
+            uint32_t x = 0, y = 0;
+            for (int k = 0; k < 4; ++k) {
+                x |= (i >> (2 * k) & 1u) << k;
+                y |= (i >> (2 * k + 1) & 1u) << k;
+            }
+            inOrder.push_back(rows[y * kTileSide + x]);
+        }
+        for (int m = 0; m <= 8; m += 2)
+            for (uint32_t first = 0; first < 256; first += 1u << m) REQUIRE(isSpread(&inOrder[first], m));
+        CHECK_FALSE(isSpread(rows.data(), 8)); // planted: row by row
+    }
+}
+
 TEST_CASE("planted: random numbers and points out of place are not spread") {
     const Points random = draw({77, 0, 0, kSeed}, 1, 256, gpu::kSamplerBlock, gpu::kSamplerRandom);
     CHECK_FALSE(isSpread(random.data(), 4));
@@ -205,7 +228,7 @@ TEST_CASE("over pixels each sample is uniform, and so is each pair of its number
 
 namespace {
 
-constexpr uint32_t kPixels = 8192, kSamples = 32;
+constexpr uint32_t kPixels = kWidth, kSamples = 32; // a row: 16 pixels of each tile
 
 // Two sets of samples of the same pixels, as they would be combined in paths.
 struct Correlation {
@@ -214,18 +237,20 @@ struct Correlation {
 };
 
 Correlation correlate(const Points& a, const Points& b, int da, int db) {
-    double sum = 0.0, squares = 0.0;
+    double sum = 0.0, squares = 0.0, tile = 0.0, tileSquares = 0.0;
     for (uint32_t p = 0; p < kPixels; ++p) {
         double mean = 0.0;
         for (uint32_t i = p * kSamples; i < (p + 1) * kSamples; ++i)
             mean += 12.0 * (unit(a[i][da]) - 0.5) * (unit(b[i][db]) - 0.5) / kSamples;
         sum += mean;
         squares += mean * mean;
+        tile = p % kTileSide == 0 ? mean : tile + mean;
+        if (p % kTileSide == kTileSide - 1) tileSquares += tile * tile;
     }
-    return {sum / std::sqrt(squares), squares / kPixels * kSamples};
+    return {sum / std::sqrt(tileSquares), squares / kPixels * kSamples};
 }
 
-// The means of pixels are independent, so that their sum is normal. Spread: products of two numbers that are
+// The sums of tiles are independent, so that theirs is normal. Spread: products of two numbers that are
 // each even over stretches of 2^k samples vary in such stretches, and their means by more than those of
 // independent numbers: by 1.58 if every node of both scrambles is a fair coin of its own (1.00 would take an
 // order that is good for one number of samples alone).
@@ -254,14 +279,14 @@ Points block(uint32_t number, uint32_t pixel = 0, uint32_t sample = 0, uint32_t 
 
 } // namespace
 
-TEST_CASE("blocks of a path, neighbouring pixels, seeds and groups of samples are independent") {
+TEST_CASE("blocks of a path, neighbouring tiles, seeds and groups of samples are independent") {
     Worst worst;
     std::vector<Points> blocks;
     for (const uint32_t number : {0u, 1u, 2u, 3u, 4u, 5u, 7u, 8u, 94u}) blocks.push_back(block(number));
     for (size_t a = 0; a < blocks.size(); ++a)
         for (size_t b = a + 1; b < blocks.size(); ++b) worst.add(blocks[a], blocks[b]);
-    worst.add(blocks[2], block(2, 1));
-    worst.add(blocks[2], block(2, 512));
+    worst.add(blocks[2], block(2, kTileSide));
+    worst.add(blocks[2], block(2, kTileSide * kWidth));
     worst.add(blocks[2], block(2, 0, 0, kSeed + 1));
     worst.add(blocks[2], block(2, 0, 65536));
     worst.add(blocks[2], draw({0, 0, 2, kSeed}, kPixels, kSamples, gpu::kSamplerBlock, gpu::kSamplerRandom));
@@ -280,9 +305,9 @@ TEST_CASE("planted: one key or one order for two blocks, and a correlation of 0.
     CHECK(isFound(one, one));
     Points ordered = two; // other values in the order of the first
     for (uint32_t i = 0; i < ordered.size(); ++i) {
-        auto keys = reference::sobolKeys(i / kSamples, 0, 2, kSeed);
-        keys.order = reference::sobolKeys(i / kSamples, 0, 1, kSeed).order;
-        const Words point = reference::shuffledScrambledSobol(i % kSamples, keys);
+        auto keys = reference::pixelKeys(i / kSamples, kWidth, 0, 2, kSeed);
+        keys.sequence.order = reference::pixelKeys(i / kSamples, kWidth, 0, 1, kSeed).sequence.order;
+        const Words point = reference::pixelPoint(i % kSamples, keys);
         ordered[i] = {point[0], point[1], point[2], point[3]};
     }
     CHECK(isFound(one, ordered));

@@ -55,4 +55,17 @@ uvec4 sobolBits(uint number, uvec4 key) {
     return bitfieldReverse(scrambleReversed(uvec4(n, pascal(n), others & 0xffffu, others >> kSobolBits), key));
 }
 
+const uint kTileMask = 15u; // of a pixel's coordinates, in tiles of 16 x 16
+
+// Number of a tile's pixel in z-order: bits of x and y in turn.
+uint zOrder(uvec2 pixel) {
+    uint z = pixel.x | pixel.y << 16u;
+    z = (z | z << 2u) & 0x00330033u;
+    z = (z | z << 1u) & 0x00550055u;
+    return (z | z >> 15u) & 0xffu;
+}
+
+// What a tile's pixel shifts its points by: point zOrder(pixel) of the sequence that the key stands for.
+uvec4 tileShift(uvec2 pixel, uvec4 key) { return sobolBits(zOrder(pixel), key); }
+
 #endif

@@ -1,5 +1,6 @@
 // The numbers of a path's decisions, by blocks of four (lib/rng.glsl): independent ones, or points that are spread evenly over
-// the samples of a pixel. shaders/README.md has what each of the four serves.
+// the samples of a pixel and over the pixels of a tile. shaders/README.md has what each of the four serves. `frame` has the
+// picture's `width`.
 #ifndef IRRADIA_PATH_SAMPLER_GLSL
 #define IRRADIA_PATH_SAMPLER_GLSL
 #include "lib/rng.glsl"
@@ -8,9 +9,16 @@
 
 const uint kSobolBlocks = 0x80000000u; // their keys are no independent numbers of the same path
 
+// A tile's pixels share one scrambled sequence. Each shifts it digit by digit (XOR) by a point of a second one, in z-order:
+// neighbours then get points that are far apart, after Ahmed and Wonka 2020, "Screen-Space Blue-Noise Diffusion of Monte Carlo
+// Sampling Error via Hierarchical Ordering of Pixels", and each keeps a scrambled sequence over all of its samples.
 uvec4 sampleBits(uint pixel, uint sampleIndex, uint block, uint seed) {
     if (kSampler == kSamplerRandom) return randomBits(pixel, sampleIndex, block, seed);
-    return sobolBits(sampleIndex, randomBits(pixel, sampleIndex >> kSobolBits, block + kSobolBlocks, seed));
+    uint y = pixel / frame.width, x = pixel - y * frame.width;
+    uvec2 inTile = uvec2(x, y) & kTileMask;
+    uint firstOfTile = pixel - inTile.y * frame.width - inTile.x;
+    uvec4 key = randomBits(firstOfTile, sampleIndex >> kSobolBits, block + kSobolBlocks, seed);
+    return sobolBits(sampleIndex, key) ^ tileShift(inTile, pcg4d(key));
 }
 
 // Of a BSDF sample: lobe, direction (two), roulette. The first two dimensions, which are the best, go to the direction.

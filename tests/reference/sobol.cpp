@@ -76,10 +76,8 @@ uint32_t nestedScramble(uint32_t fraction, uint32_t key) {
     return mirrored(x);
 }
 
-SobolKeys sobolKeys(uint32_t pixel, uint32_t group, uint32_t block, uint32_t seed) {
-    SobolKeys keys{pcg4d({pixel, group, block + 0x80000000u, seed}), 0};
-    keys.order = (keys.values[0] ^ keys.values[2]) * 0x9e3779b9u;
-    return keys;
+SobolKeys sobolKeys(const Words& values) {
+    return {values, (values[0] ^ values[2]) * 0x9e3779b9u};
 }
 
 Words shuffledScrambledSobol(uint32_t number, const SobolKeys& keys) {
@@ -87,6 +85,21 @@ Words shuffledScrambledSobol(uint32_t number, const SobolKeys& keys) {
     const uint32_t shuffled = nestedScramble(number << kPlaces, keys.order) >> kPlaces;
     Words point{};
     for (int d = 0; d < 4; ++d) point[d] = nestedScramble(sobol(shuffled, d), keys.values[d]);
+    return point;
+}
+
+PixelKeys pixelKeys(uint32_t pixel, uint32_t width, uint32_t group, uint32_t block, uint32_t seed) {
+    const uint32_t x = pixel % width % 16, y = pixel / width % 16;
+    uint32_t place = 0;
+    for (int i = 0; i < 4; ++i) place |= (x >> i & 1u) << (2 * i) | (y >> i & 1u) << (2 * i + 1);
+    const Words values = pcg4d({pixel - y * width - x, group, block + 0x80000000u, seed});
+    return {sobolKeys(values), sobolKeys(pcg4d(values)), place};
+}
+
+Words pixelPoint(uint32_t number, const PixelKeys& keys) {
+    Words point = shuffledScrambledSobol(number, keys.sequence);
+    const Words shift = shuffledScrambledSobol(keys.place, keys.shift);
+    for (int d = 0; d < 4; ++d) point[d] ^= shift[d];
     return point;
 }
 

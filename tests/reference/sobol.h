@@ -24,10 +24,21 @@ struct SobolKeys {
     uint32_t order;
 };
 
-// Of a block of a pixel's decisions; `group` is the sample's number without its last 16 bits.
-SobolKeys sobolKeys(uint32_t pixel, uint32_t group, uint32_t block, uint32_t seed);
+SobolKeys sobolKeys(const Words& values);
 
 // The point in place `number` of 65,536 of a shuffled and scrambled sequence (Burley 2020, listing 4).
 Words shuffledScrambledSobol(uint32_t number, const SobolKeys& keys);
+
+struct PixelKeys {
+    SobolKeys sequence; // of the tile
+    SobolKeys shift;    // of the pixels' shifts
+    uint32_t place;     // of the pixel in its tile, in z-order (Morton 1966)
+};
+
+// Of a block of a pixel's decisions; `group` is the sample's number without its last 16 bits.
+PixelKeys pixelKeys(uint32_t pixel, uint32_t width, uint32_t group, uint32_t block, uint32_t seed);
+
+// The point in place `number` of 65,536 of the pixel: the tile's, digits shifted.
+Words pixelPoint(uint32_t number, const PixelKeys& keys);
 
 } // namespace irradia::reference

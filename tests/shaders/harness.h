@@ -42,6 +42,7 @@ struct SamplerHarnessParams {
     uint samples;
     uint count;
     uint which; // kSamplerBlock, ...
+    uint width; // of the picture
 };
 SHARED_CONST uint kSamplerBlock = 0u; // of block first.z
 SHARED_CONST uint kSamplerBsdf = 1u;  // of the BSDF sample at depth first.z

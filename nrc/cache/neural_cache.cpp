@@ -1,9 +1,9 @@
 #include "nrc/cache/neural_cache.h"
 
 #include "nrc/cache/cache_queries.h"
+#include "nrc/cache/model_facts.h"
 #include "nrc/cache/radiance_scale.h"
 #include "nrc/cache/training_records.h"
-#include "nrc/learning/model_file.h"
 #include <algorithm>
 #include <fmt/format.h>
 #include <iterator>
@@ -35,8 +35,6 @@ TrainerOptions trainerOptions(const NeuralCacheOptions& options, const CacheRoom
     trainer.touched = options.touched;
     return trainer;
 }
-
-constexpr const char *kKind = "cache", *kStateBlock = "cache state", *kMeaningBlock = "meaning";
 
 // Of the outputs.
 const char* meaningOf(const NeuralCacheOptions& options) {
@@ -132,18 +130,18 @@ CacheCounts NeuralCache::counts() const {
 
 void NeuralCache::save(const std::filesystem::path& file) const {
     const State& s = *state_;
-    ModelFile model(kKind);
-    model.addText(kMeaningBlock, meaningOf(s.options));
-    model.add<gpu::CacheState>(kStateBlock, std::vector{s.scale.read()});
+    ModelFile model(kCacheModel);
+    model.addText(kCacheMeaningBlock, meaningOf(s.options));
+    model.add<gpu::CacheState>(kCacheStateBlock, std::vector{s.scale.read()});
     s.trainer.save(file, std::move(model));
 }
 
 void NeuralCache::load(const std::filesystem::path& file) {
     State& s = *state_;
-    const ModelFile model = ModelFile::read(file, kKind);
-    if (const std::string meaning = model.text(kMeaningBlock); meaning != meaningOf(s.options))
+    const ModelFile model = ModelFile::read(file, kCacheModel);
+    if (const std::string meaning = model.text(kCacheMeaningBlock); meaning != meaningOf(s.options))
         model.refuse(fmt::format("it predicts {}, and {} is wanted", meaning, meaningOf(s.options)));
-    const gpu::CacheState state = model.values<gpu::CacheState>(kStateBlock, 1).front();
+    const gpu::CacheState state = model.values<gpu::CacheState>(kCacheStateBlock, 1).front();
     s.trainer.load(model);
     s.scale.set(state);
 }

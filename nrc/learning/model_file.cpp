@@ -92,6 +92,13 @@ void ModelFile::write(const std::filesystem::path& file) const {
 }
 
 ModelFile ModelFile::read(const std::filesystem::path& file, const std::string& kind) {
+    ModelFile model = read(file);
+    if (model.kind_ != kind)
+        model.refuse(fmt::format("is a model of kind '{}', wanted is one of kind '{}'", model.kind_, kind));
+    return model;
+}
+
+ModelFile ModelFile::read(const std::filesystem::path& file) {
     const std::vector<uint8_t> bytes = readFile(file);
     checkHead(bytes, file);
     Reader reader(std::span<const uint8_t>(bytes).subspan(kMagic.size() + sizeof kVersion), file);
@@ -107,9 +114,17 @@ ModelFile ModelFile::read(const std::filesystem::path& file, const std::string& 
     if (reader.value<uint32_t>() !=
         checksum<uint8_t>(std::span(bytes).first(bytes.size() - sizeof(uint32_t))))
         model.refuse("the model is damaged (its checksum differs)");
-    if (model.kind_ != kind)
-        model.refuse(fmt::format("is a model of kind '{}', wanted is one of kind '{}'", model.kind_, kind));
     return model;
+}
+
+uint32_t ModelFile::version() {
+    return kVersion;
+}
+
+std::vector<ModelFile::BlockSize> ModelFile::blocks() const {
+    std::vector<BlockSize> sizes;
+    for (const Block& block : blocks_) sizes.push_back({block.name, block.bytes.size()});
+    return sizes;
 }
 
 void ModelFile::addBytes(const std::string& name, std::span<const std::byte> bytes) {

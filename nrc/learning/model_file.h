@@ -37,6 +37,7 @@ public:
     // Throws Error: NotFound, Io, or BadData naming the file and what differs: no model, another version or
     // kind, cut off or changed.
     static ModelFile read(const std::filesystem::path& file, const std::string& kind);
+    static ModelFile read(const std::filesystem::path& file); // of whatever kind
     // Written whole or not at all. Throws Error(Io).
     void write(const std::filesystem::path& file) const;
 
@@ -49,6 +50,15 @@ public:
     void addText(const std::string& name, std::string_view text) {
         addBytes(name, std::as_bytes(std::span(text)));
     }
+
+    const std::string& kind() const { return kind_; }
+    static uint32_t version(); // that is read and written
+
+    struct BlockSize {
+        std::string name;
+        uint64_t bytes;
+    };
+    std::vector<BlockSize> blocks() const; // in the file's order
 
     bool has(std::string_view name) const;
     // Throw Error(BadData) naming file and block where there is none, or none of so many values.

@@ -9,6 +9,8 @@ namespace irradia {
 void addRender(CLI::App& program);
 void addCompare(CLI::App& program);
 void addDevices(CLI::App& program);
+void addInfo(CLI::App& program);
+void addValidate(CLI::App& program);
 void addBench(CLI::App& program);
 void addBenchFrame(CLI::App& bench);
 void addBenchRays(CLI::App& bench);

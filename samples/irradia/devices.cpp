@@ -3,13 +3,11 @@
 #include "engine/error.h"
 #include "engine/gpu/device.h"
 #include "samples/support/standard_streams.h"
-#include <algorithm>
+#include "samples/support/table.h"
 #include <nlohmann/json.hpp>
 
 namespace irradia {
 namespace {
-
-using Row = std::vector<std::string>;
 
 std::string state(const DeviceDescription& device) {
     return device.missing.empty() ? "usable" : fmt::format("lacks {}", fmt::join(device.missing, ", "));
@@ -25,17 +23,6 @@ Row toRow(const DeviceDescription& device) {
             std::to_string(device.subgroupSize),
             fmt::format("{:.1f} GiB", static_cast<double>(device.memoryBytes) / kGibibyte),
             state(device)};
-}
-
-// Columns as wide as their widest cell, the last one open.
-void printTable(const std::vector<Row>& rows) {
-    std::vector<size_t> widths(rows.front().size());
-    for (const Row& row : rows)
-        for (size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], row[c].size());
-    for (const Row& row : rows) {
-        for (size_t c = 0; c + 1 < row.size(); ++c) printResult("{:<{}}  ", row[c], widths[c]);
-        printResult("{}\n", row.back());
-    }
 }
 
 nlohmann::ordered_json toJson(const DeviceDescription& device) {

@@ -11,6 +11,8 @@ void addCommands(CLI::App& program) {
     program.require_subcommand(1);
     addRender(program);
     addCompare(program);
+    addInfo(program);
+    addValidate(program);
     addDevices(program);
     addBench(program);
 }

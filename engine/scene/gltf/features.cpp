@@ -8,7 +8,8 @@
 namespace irradia::gltf {
 namespace {
 
-// Those that change nothing in a picture are among them.
+constexpr std::string_view kUnsupported = "UNSUPPORTED_EXTENSION";
+
 constexpr std::string_view kReadExtensions[] = {"KHR_materials_emissive_strength",
                                                 "KHR_materials_ior",
                                                 "KHR_materials_specular",
@@ -16,8 +17,6 @@ constexpr std::string_view kReadExtensions[] = {"KHR_materials_emissive_strength
                                                 "KHR_mesh_quantization",
                                                 "KHR_xmp",
                                                 "KHR_xmp_json_ld"};
-
-constexpr size_t kMaxWarnings = 64; // a broken file may earn one for each of a million things
 
 // What changes the picture and is left out: the file can be read all the same.
 struct IgnoredExtension {
@@ -57,34 +56,41 @@ std::string joined(const std::vector<std::string>& names) {
     return fmt::format("{}", fmt::join(names, ", "));
 }
 
-void noteMaterials(const tinygltf::Model& model, SceneNotes& notes) {
+// Valid glTF that the renderer leaves out.
+void noteLeftOut(const SourceFile& source, std::string_view pointer, const std::string& sentence) {
+    source.note(Severity::Info, pointer, kNotRendered, sentence);
+}
+
+void noteMaterials(const SourceFile& source, const tinygltf::Model& model) {
     const auto transparent =
         std::count_if(model.materials.begin(), model.materials.end(),
                       [](const auto& material) { return material.alphaMode != "OPAQUE"; });
     if (transparent > 0)
-        warnOnce(notes,
-                 fmt::format("alpha modes are not supported yet: {} materials are opaque", transparent));
+        noteLeftOut(source, "/materials",
+                    fmt::format("alpha modes are not supported yet: {} materials are opaque", transparent));
     for (const tinygltf::Sampler& sampler : model.samplers)
         if (sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST)
-            warnOnce(notes, "nearest filtering is not supported: textures are filtered bilinearly");
+            noteLeftOut(source, "/samplers",
+                        "nearest filtering is not supported: textures are filtered bilinearly");
 }
 
-void noteMeshes(const tinygltf::Model& model, SceneNotes& notes) {
+void noteMeshes(const SourceFile& source, const tinygltf::Model& model) {
     bool colours = false, targets = false;
     for (const tinygltf::Mesh& mesh : model.meshes)
         for (const tinygltf::Primitive& primitive : mesh.primitives) {
             colours = colours || primitive.attributes.contains("COLOR_0");
             targets = targets || !primitive.targets.empty();
         }
-    if (colours) warnOnce(notes, "vertex colours are ignored");
-    if (targets) warnOnce(notes, "morph targets are not supported yet: meshes keep their base shape");
+    if (colours) noteLeftOut(source, "/meshes", "vertex colours are ignored");
+    if (targets)
+        noteLeftOut(source, "/meshes", "morph targets are not supported yet: meshes keep their base shape");
 }
 
-void noteEmptyAccessors(const tinygltf::Model& model, SceneNotes& notes) {
+void warnOfEmptyAccessors(const SourceFile& source, const tinygltf::Model& model) {
     for (size_t i = 0; i < model.accessors.size(); ++i)
         if (model.accessors[i].count == 0)
-            warnOnce(notes, label("accessor", i, model.accessors[i].name) +
-                                ": VALUE_NOT_IN_RANGE: count 0: what uses it is left out");
+            source.warn(thing("accessor", "accessors", i, model.accessors[i].name).at("count"),
+                        "VALUE_NOT_IN_RANGE", "count 0: what uses it is left out");
 }
 
 } // namespace
@@ -92,47 +98,58 @@ void noteEmptyAccessors(const tinygltf::Model& model, SceneNotes& notes) {
 void refuseUnreadableExtensions(const SourceFile& source, const JsonFindings& findings) {
     for (const std::string& name : findings.extensionsRequired)
         if (!isRead(name) && !findIgnored(name))
-            source.refuse("the file requires the extension '{}', which is not supported", name);
+            source.attempt({{}, "/extensionsRequired"}, kUnsupported, [&, &name = name] {
+                source.refuse("the file requires the extension '{}', which is not supported", name);
+            });
 }
 
-void noteExtensions(const JsonFindings& findings, SceneNotes& notes) {
+std::vector<ExtensionUse> extensionsOf(const JsonFindings& findings) {
     std::set<std::string> names = findings.extensionsDeclared;
     names.insert(findings.extensionsRequired.begin(), findings.extensionsRequired.end());
     names.insert(findings.extensionsFound.begin(), findings.extensionsFound.end());
-    std::vector<std::string> undeclared, others;
+    std::vector<ExtensionUse> uses;
     for (const std::string& name : names) {
-        if (!findings.extensionsDeclared.contains(name)) undeclared.push_back(name);
-        if (isRead(name)) continue;
+        ExtensionUse& use = uses.emplace_back();
+        use.name = name;
+        use.isDeclared = findings.extensionsDeclared.contains(name);
+        use.isRequired = findings.extensionsRequired.contains(name);
         const IgnoredExtension* ignored = findIgnored(name);
-        if (!ignored)
-            others.push_back(name);
-        else if (findings.extensionsRequired.contains(name))
-            warnOnce(notes, fmt::format("the file requires {}, which is not rendered yet: {}", name,
-                                        ignored->consequence));
-        else
-            warnOnce(notes, fmt::format("{} is not supported yet: {}", name, ignored->consequence));
+        use.support = isRead(name) ? Support::Read : ignored ? Support::Ignored : Support::Unknown;
+        if (ignored) use.consequence = ignored->consequence;
     }
-    if (!others.empty()) warnOnce(notes, "optional extensions ignored: " + joined(others));
+    return uses;
+}
+
+void noteExtensions(const SourceFile& source, const JsonFindings& findings) {
+    std::vector<std::string> undeclared, others;
+    for (const ExtensionUse& use : extensionsOf(findings)) {
+        if (!use.isDeclared) undeclared.push_back(use.name);
+        if (use.support == Support::Unknown && !use.isRequired) others.push_back(use.name);
+        if (use.support != Support::Ignored) continue;
+        if (use.isRequired)
+            source.note(Severity::Warning, "/extensionsRequired", kUnsupported,
+                        fmt::format("the file requires {}, which is not rendered yet: {}", use.name,
+                                    use.consequence));
+        else
+            source.note(Severity::Info, "/extensionsUsed", kUnsupported,
+                        fmt::format("{} is not supported yet: {}", use.name, use.consequence));
+    }
+    if (!others.empty())
+        source.note(Severity::Info, "/extensionsUsed", kUnsupported,
+                    "optional extensions ignored: " + joined(others));
     if (!undeclared.empty())
-        warnOnce(notes, "extensions used but not declared in extensionsUsed: " + joined(undeclared));
+        source.note(Severity::Warning, "/extensionsUsed", "UNDECLARED_EXTENSION",
+                    "extensions used but not declared in extensionsUsed: " + joined(undeclared));
 }
 
-void noteIgnoredFeatures(const tinygltf::Model& model, SceneNotes& notes) {
-    noteMaterials(model, notes);
-    noteMeshes(model, notes);
-    noteEmptyAccessors(model, notes);
+void noteIgnoredFeatures(const SourceFile& source, const tinygltf::Model& model) {
+    noteMaterials(source, model);
+    noteMeshes(source, model);
+    warnOfEmptyAccessors(source, model);
     if (!model.skins.empty())
-        warnOnce(notes, "skins are not supported yet: meshes keep their unskinned shape");
-    if (!model.animations.empty()) warnOnce(notes, "animations are not supported yet: the scene is at rest");
-}
-
-void warnOnce(SceneNotes& notes, const std::string& text) {
-    const std::string warning = printable(text);
-    if (std::find(notes.warnings.begin(), notes.warnings.end(), warning) != notes.warnings.end()) return;
-    if (notes.warnings.size() < kMaxWarnings)
-        notes.warnings.push_back(warning);
-    else if (notes.warnings.size() == kMaxWarnings)
-        notes.warnings.push_back("there are more warnings");
+        noteLeftOut(source, "/skins", "skins are not supported yet: meshes keep their unskinned shape");
+    if (!model.animations.empty())
+        noteLeftOut(source, "/animations", "animations are not supported yet: the scene is at rest");
 }
 
 } // namespace irradia::gltf

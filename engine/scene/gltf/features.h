@@ -1,10 +1,10 @@
-// Which parts of glTF and of its extensions are read, and the one warning each for those that are not.
+// Which parts of glTF and of its extensions are read, and the one note each for those that are not.
 #pragma once
 
 #include "engine/scene/gltf/json_guard.h"
 #include "engine/scene/gltf/model.h"
-#include "engine/scene/scene.h"
 #include <string>
+#include <vector>
 
 namespace irradia::gltf {
 
@@ -12,13 +12,26 @@ namespace irradia::gltf {
 // nothing is known here.
 void refuseUnreadableExtensions(const SourceFile& source, const JsonFindings& findings);
 
-// Warnings for the extensions that are left out, required ones among them, and for undeclared ones.
-void noteExtensions(const JsonFindings& findings, SceneNotes& notes);
+enum class Support {
+    Read,    // those that change nothing in a picture are among them
+    Ignored, // known to change the picture, and left out of it
+    Unknown
+};
 
-// One warning for each feature of glTF itself that the file uses and the renderer leaves out.
-void noteIgnoredFeatures(const tinygltf::Model& model, SceneNotes& notes);
+struct ExtensionUse {
+    std::string name;
+    Support support = Support::Unknown;
+    bool isDeclared = false, isRequired = false;
+    std::string consequence; // of an ignored one, "such materials are opaque"
+};
 
-// Adds a warning unless the same one is there, or too many are.
-void warnOnce(SceneNotes& notes, const std::string& warning);
+// Every extension that the file declares, requires or holds, by name.
+std::vector<ExtensionUse> extensionsOf(const JsonFindings& findings);
+
+// Notes for the extensions that are left out, required ones among them, and for undeclared ones.
+void noteExtensions(const SourceFile& source, const JsonFindings& findings);
+
+// One note for each feature of glTF itself that the file uses and the renderer leaves out.
+void noteIgnoredFeatures(const SourceFile& source, const tinygltf::Model& model);
 
 } // namespace irradia::gltf

@@ -34,8 +34,51 @@ std::string printable(std::string text) {
     return text;
 }
 
+// A code may have a remark after it, "ACCESSOR_TOO_LONG (sparse indices)", which belongs to the sentence.
+Finding SourceFile::found(Severity severity, const Thing& at, std::string_view code, const std::string& why) {
+    const size_t end = std::min(code.find(' '), code.size());
+    const std::string name(code.substr(0, end));
+    std::string remark(code.substr(end));
+    if (at.name.empty() && !remark.empty()) remark.erase(0, 1);
+    const auto joined = [&](const std::string& head) {
+        return printable(head.empty() ? why : fmt::format("{}: {}", head, why));
+    };
+    const std::string said = at.name == at.pointer ? "" : at.name; // the pointer stands beside it
+    const std::string_view between = at.name.empty() || code.empty() ? "" : ": ";
+    return {severity, name, at.pointer, joined(said + remark),
+            joined(fmt::format("{}{}{}", at.name, between, code))};
+}
+
+Finding SourceFile::told(Severity severity, std::string_view pointer, std::string_view code,
+                         const std::string& sentence) {
+    const std::string text = printable(sentence);
+    return {severity, std::string(code), std::string(pointer), text, text};
+}
+
+void SourceFile::refuseAs(Finding finding) const {
+    const std::string sentence = fmt::format("{}: {}", path.string(), finding.message);
+    throw Refusal(sentence, std::move(finding));
+}
+
+void SourceFile::keepOrThrow(const Error& error, const Thing& at, std::string_view code) const {
+    const bool isOfFile = error.code() == ExitCode::BadData || error.code() == ExitCode::NotFound ||
+                          error.code() == ExitCode::Io;
+    if (!findings->collects() || !isOfFile) throw;
+    if (const auto* refusal = dynamic_cast<const Refusal*>(&error)) {
+        Finding finding = refusal->finding();
+        if (finding.pointer.empty()) finding.pointer = at.pointer;
+        if (finding.code.empty()) finding.code = code;
+        return findings->keep(std::move(finding));
+    }
+    std::string sentence = error.what();
+    if (const std::string head = path.string() + ": "; sentence.starts_with(head))
+        sentence.erase(0, head.size());
+    const bool isBroken = error.code() == ExitCode::BadData;
+    findings->keep(told(Severity::Error, at.pointer, isBroken ? code : "IO_ERROR", sentence));
+}
+
 SourceFile openSource(const std::filesystem::path& file) {
-    return {file, readCapped(file)};
+    return {.path = file, .bytes = readCapped(file)};
 }
 
 std::string decodeUri(std::string_view uri) {

@@ -45,6 +45,15 @@ constexpr Format kFormats[] = {
     {"\x76\x2f\x31\x01"sv, "an OpenEXR picture"},
     {"#?RADIANCE"sv, "a Radiance HDR picture"},
     {"%PDF"sv, "a PDF file"},
+    {"GIF8"sv, "a GIF picture"},
+    {"II*\0"sv, "a TIFF picture"},
+    {"MM\0*"sv, "a TIFF picture"},
+    {"\xabKTX"sv, "a KTX texture"},
+    {"DDS "sv, "a DDS texture"},
+    {"\x7f"
+     "ELF"sv,
+     "a program"},
+    {"IRRADNET"sv, "a saved model of this program"},
     {"version https://git-lfs"sv, "a pointer of Git LFS to a file that is not here"},
 };
 
@@ -74,6 +83,8 @@ bool contains(std::string_view text, std::string_view word) {
            }) != text.end();
 }
 
+} // namespace
+
 std::string_view foreignFormat(std::string_view bytes) {
     for (const Format& format : kFormats)
         if (bytes.starts_with(format.start)) return format.name;
@@ -89,8 +100,6 @@ std::string_view foreignFormat(std::string_view bytes) {
     }
     return isObj(head) ? "a Wavefront OBJ or MTL file" : std::string_view();
 }
-
-} // namespace
 
 void refuseForeignFormat(const SourceFile& source) {
     const std::string_view name =

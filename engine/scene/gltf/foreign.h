@@ -5,6 +5,9 @@
 
 namespace irradia::gltf {
 
+// "a gzip archive", by a file's first bytes; empty where they are of no format that is known here.
+std::string_view foreignFormat(std::string_view bytes);
+
 // Throws BadData naming the format of a file that is known to be another one.
 void refuseForeignFormat(const SourceFile& source);
 

@@ -2,6 +2,7 @@
 
 #include "engine/image/image.h"
 #include "engine/scene/gltf/data_uri.h"
+#include <exception>
 #include <tbb/parallel_for.h>
 
 namespace irradia::gltf {
@@ -42,13 +43,22 @@ int ImageTable::use(int image) {
 
 void ImageTable::decode() {
     images_.resize(used_.size());
+    std::vector<std::exception_ptr> errors(used_.size()); // told in the file's order
     std::atomic<uint64_t> texels = 0;
     tbb::parallel_for(size_t{0}, used_.size(), [&](size_t i) {
-        images_[i] = decodeOne(used_[i]);
+        try {
+            images_[i] = decodeOne(used_[i]);
+        } catch (const Error&) {
+            errors[i] = std::current_exception();
+        }
         texels += images_[i].rgba.size() / 4;
         if (texels > kMaxTexels)
             source_.refuse("the pictures hold more than the {} texels allowed", kMaxTexels);
     });
+    for (size_t i = 0; i < used_.size(); ++i)
+        source_.attempt(thing("image", "images", used_[i]), "IMAGE_DATA_INVALID", [&] {
+            if (errors[i]) std::rethrow_exception(errors[i]);
+        });
 }
 
 TextureImage ImageTable::decodeOne(size_t index) const {

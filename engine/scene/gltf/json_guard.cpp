@@ -69,7 +69,7 @@ public:
         const std::string_view name = property();
         if (!isInteger(name)) return true;
         const uint64_t limit = kSizeProperties.contains(name) && !isSparse() ? kMaxSize : kMaxIndex;
-        if (value > limit) source_.refuse("{}: VALUE_NOT_IN_RANGE: {} is above {}", where(), value, limit);
+        if (value > limit) source_.report(here(), "VALUE_NOT_IN_RANGE", "{} is above {}", value, limit);
         if (isOfBuffer("byteLength")) buffer().byteLength = value;
         return true;
     }
@@ -100,7 +100,7 @@ public:
         const std::string text = error.what();
         const size_t begin = text.find("] ");
         source_.refuse(
-            "INVALID_JSON at byte {}: {}", position,
+            Thing{}, fmt::format("INVALID_JSON at byte {}", position), "{}",
             text.substr(begin == std::string::npos ? 0 : begin + 2, text.find("; last read") - begin - 2));
     }
 
@@ -131,7 +131,7 @@ private:
     bool notAnInteger(std::string_view found) {
         countValue();
         if (isInteger(property()))
-            source_.refuse("{}: TYPE_MISMATCH: a non-negative integer is needed, not {}", where(), found);
+            source_.report(here(), "TYPE_MISMATCH", "a non-negative integer is needed, not {}", found);
         return true;
     }
 
@@ -186,6 +186,7 @@ private:
                 level.isArray ? fmt::format("/{}", level.index == 0 ? 0 : level.index - 1) : "/" + level.key;
         return text.size() <= 120 ? text : text.substr(0, 120) + "...";
     }
+    Thing here() const { return {where(), where()}; }
 
     const SourceFile& source_;
     Schema schema_;
@@ -214,19 +215,22 @@ std::string_view jsonText(const SourceFile& source) {
     const uint64_t size = source.bytes.size();
     if (!isBinary(source)) return {text, size};
 
-    if (size < kGlbHeader + kChunkHeader) source.refuse("GLB_UNEXPECTED_END_OF_HEADER: {} bytes", size);
+    if (size < kGlbHeader + kChunkHeader)
+        source.refuse(Thing{}, "GLB_UNEXPECTED_END_OF_HEADER", "{} bytes", size);
     const uint32_t version = littleEndian32(bytes + 4);
-    if (version != 2) source.refuse("GLB_INVALID_VERSION: {}, only 2 can be read", version);
+    if (version != 2) source.refuse(Thing{}, "GLB_INVALID_VERSION", "{}, only 2 can be read", version);
     const uint64_t length = littleEndian32(bytes + 8);
     if (length > size)
-        source.refuse("GLB_LENGTH_MISMATCH: the header says {} bytes, the file has {}", length, size);
+        source.refuse(Thing{}, "GLB_LENGTH_MISMATCH", "the header says {} bytes, the file has {}", length,
+                      size);
 
     const uint64_t jsonLength = littleEndian32(bytes + kGlbHeader);
     if (littleEndian32(bytes + kGlbHeader + 4) != kJsonChunk)
-        source.refuse("GLB_UNEXPECTED_FIRST_CHUNK: the first chunk is not JSON");
+        source.refuse(Thing{}, "GLB_UNEXPECTED_FIRST_CHUNK", "the first chunk is not JSON");
     if (kGlbHeader + kChunkHeader + jsonLength > length)
-        source.refuse("GLB_CHUNK_TOO_BIG: {} bytes of JSON in {} bytes", jsonLength, length);
-    if (jsonLength % 4 != 0) source.refuse("GLB_CHUNK_LENGTH_UNALIGNED: {} bytes of JSON", jsonLength);
+        source.refuse(Thing{}, "GLB_CHUNK_TOO_BIG", "{} bytes of JSON in {} bytes", jsonLength, length);
+    if (jsonLength % 4 != 0)
+        source.refuse(Thing{}, "GLB_CHUNK_LENGTH_UNALIGNED", "{} bytes of JSON", jsonLength);
     return {text + kGlbHeader + kChunkHeader, jsonLength};
 }
 

@@ -1,6 +1,5 @@
 #include "engine/scene/gltf/materials.h"
 
-#include "engine/scene/gltf/features.h"
 #include "engine/scene/gltf/images.h"
 #include <algorithm>
 #include <cmath>
@@ -13,12 +12,12 @@ constexpr double kMaxScale = 1e6;
 
 class MaterialReader {
 public:
-    MaterialReader(const tinygltf::Model& model, size_t index, ImageTable& images, SceneNotes& notes)
-        : model_(model)
+    MaterialReader(const SourceFile& source, const tinygltf::Model& model, size_t index, ImageTable& images)
+        : source_(source)
+        , model_(model)
         , from_(model.materials[index])
-        , owner_(label("material", index, from_.name))
-        , images_(images)
-        , notes_(notes) {}
+        , owner_(thing("material", "materials", index, from_.name))
+        , images_(images) {}
 
     Material read() {
         Material material;
@@ -60,7 +59,8 @@ private:
         material.specularColor = colour(*extension, "specularFactor", 1);
         material.specularColorTexture = texture(*extension, "specularGlossinessTexture");
         if (material.specularColorTexture.image >= 0)
-            warnOnce(notes_, "the glossiness channel of specular-glossiness textures is ignored");
+            source_.note(Severity::Info, owner_.pointer, kNotRendered,
+                         "the glossiness channel of specular-glossiness textures is ignored");
     }
 
     void readSurface(Material& material) {
@@ -113,8 +113,9 @@ private:
     float number(const std::string& key, double value, double low, double high) {
         const double clamped = std::isnan(value) ? low : std::clamp(value, low, high);
         if (clamped != value)
-            warnOnce(notes_, fmt::format("{}: {} {} is outside {} to {} and was clamped", owner_, key, value,
-                                         low, high));
+            warn(owner_, "VALUE_NOT_IN_RANGE",
+                 fmt::format("{}: {} {} is outside {} to {} and was clamped", owner_.name, key, value, low,
+                             high));
         return static_cast<float>(clamped);
     }
 
@@ -141,18 +142,24 @@ private:
     TextureRef texture(int index, int uvSet) {
         if (index < 0) return {};
         const tinygltf::Texture& from = model_.textures[index];
+        const Thing owner = thing("texture", "textures", static_cast<size_t>(index), from.name);
         if (uvSet > 1) {
-            warnOnce(notes_, fmt::format("{}: texture {} uses coordinate set {}, only 0 and 1 can be used",
-                                         owner_, index, uvSet));
+            warn(owner_, kNotRendered,
+                 fmt::format("{}: texture {} uses coordinate set {}, only 0 and 1 can be used", owner_.name,
+                             index, uvSet));
             return {};
         }
         if (from.source < 0) {
-            warnOnce(notes_, label("texture", index, from.name) + " has no picture of a supported format");
+            warn(owner, kNotRendered, owner.name + " has no picture of a supported format");
             return {};
         }
-        if (images_.isMissing(from.source)) {
-            warnOnce(notes_, fmt::format("{} is left out: {} is missing", label("texture", index, from.name),
-                                         images_.nameOf(from.source)));
+        bool isMissing = false;
+        const Thing image = thing("image", "images", static_cast<size_t>(from.source)).at("uri");
+        if (!source_.attempt(image, "INVALID_URI", [&] { isMissing = images_.isMissing(from.source); }))
+            return {};
+        if (isMissing) {
+            warn(image, "IO_ERROR",
+                 fmt::format("{} is left out: {} is missing", owner.name, images_.nameOf(from.source)));
             return {};
         }
         TextureRef ref{images_.use(from.source), uvSet, Wrap::Repeat, Wrap::Repeat};
@@ -163,16 +170,20 @@ private:
         return ref;
     }
 
+    void warn(const Thing& at, std::string_view code, const std::string& sentence) const {
+        source_.note(Severity::Warning, at.pointer, code, sentence);
+    }
+
     static Wrap wrap(int mode) {
         if (mode == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE) return Wrap::ClampToEdge;
         return mode == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? Wrap::MirroredRepeat : Wrap::Repeat;
     }
 
+    const SourceFile& source_;
     const tinygltf::Model& model_;
     const tinygltf::Material& from_;
-    std::string owner_;
+    Thing owner_;
     ImageTable& images_;
-    SceneNotes& notes_;
 };
 
 bool needsDefault(const tinygltf::Model& model) {
@@ -187,7 +198,7 @@ bool needsDefault(const tinygltf::Model& model) {
 void readMaterials(const SourceFile& source, const tinygltf::Model& model, Scene& scene) {
     ImageTable images(source, model, scene.images);
     for (size_t i = 0; i < model.materials.size(); ++i)
-        scene.materials.push_back(MaterialReader(model, i, images, scene.notes).read());
+        scene.materials.push_back(MaterialReader(source, model, i, images).read());
     if (needsDefault(model)) scene.materials.push_back({.name = "default"});
     images.decode();
 }

@@ -1,4 +1,4 @@
-// The parts validateModel is made of. Each throws BadData at the first fault of its share.
+// The parts validateModel is made of. Where findings are collected, each thing is checked on its own.
 #pragma once
 
 #include "engine/scene/gltf/file.h"
@@ -15,22 +15,28 @@ public:
 protected:
     enum class Need { Required, Optional }; // an absent index is -1
 
-    void checkIndex(const std::string& owner, std::string_view kind, int index, size_t size,
-                    Need need) const {
+    // The index that stands at `owner`.
+    void checkIndex(const Thing& owner, std::string_view kind, int index, size_t size, Need need) const {
         if (index == -1 && need == Need::Optional) return;
         if (index < 0 || static_cast<size_t>(index) >= size)
-            source_.refuse("{}: UNRESOLVED_REFERENCE: {} {} of {}", owner, kind, index, size);
+            source_.refuse(owner, "UNRESOLVED_REFERENCE", "{} {} of {}", kind, index, size);
+    }
+
+    // A check of its own: whether it passed. Loading ends where it does not.
+    template <typename Check>
+    bool attempt(Check&& check) const {
+        return source_.attempt(Thing{}, {}, check);
     }
 
     const SourceFile& source_;
     const tinygltf::Model& model_;
 };
 
-// Buffer views and accessors lie within their buffers.
-void checkData(const SourceFile& source, const tinygltf::Model& model);
+// Buffer views and accessors lie within their buffers. True where all do.
+bool checkData(const SourceFile& source, const tinygltf::Model& model);
 
 // The nodes are a forest of transforms, and scenes list its roots. Indices of meshes and cameras are checked
-// too.
-void checkNodes(const SourceFile& source, const tinygltf::Model& model);
+// too. True where all is well.
+bool checkNodes(const SourceFile& source, const tinygltf::Model& model);
 
 } // namespace irradia::gltf

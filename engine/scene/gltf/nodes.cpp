@@ -1,6 +1,5 @@
 #include "engine/scene/gltf/nodes.h"
 
-#include "engine/scene/gltf/features.h"
 #include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -65,8 +64,8 @@ std::vector<Placement> placeNodes(const tinygltf::Model& model) {
     return placed;
 }
 
-std::vector<Camera> placeCameras(const tinygltf::Model& model, const std::vector<Placement>& nodes,
-                                 SceneNotes& notes) {
+std::vector<Camera> placeCameras(const SourceFile& source, const tinygltf::Model& model,
+                                 const std::vector<Placement>& nodes) {
     std::vector<Placement> ordered;
     std::copy_if(nodes.begin(), nodes.end(), std::back_inserter(ordered),
                  [&](const Placement& placement) { return model.nodes[placement.node].camera >= 0; });
@@ -83,13 +82,15 @@ std::vector<Camera> placeCameras(const tinygltf::Model& model, const std::vector
         else
             camera.verticalFov = static_cast<float>(from.perspective.yfov);
         if (!orient(camera, placement.toWorld))
-            warnOnce(notes,
-                     label("camera", node.camera, camera.name) + " is left out: its node has no orientation");
+            source.note(Severity::Warning, thing("node", "nodes", placement.node).pointer, {},
+                        label("camera", node.camera, camera.name) +
+                            " is left out: its node has no orientation");
         else
             cameras.push_back(camera);
     }
     if (cameras.empty() && !model.cameras.empty())
-        warnOnce(notes, "no camera of the file can be used: the view frames the whole scene");
+        source.note(Severity::Warning, "/cameras", {},
+                    "no camera of the file can be used: the view frames the whole scene");
     return cameras;
 }
 

@@ -1,6 +1,7 @@
 // The node hierarchy, flattened: which meshes and cameras stand where in the world.
 #pragma once
 
+#include "engine/scene/gltf/file.h"
 #include "engine/scene/gltf/model.h"
 #include "engine/scene/scene.h"
 #include <glm/glm.hpp>
@@ -17,7 +18,7 @@ struct Placement {
 std::vector<Placement> placeNodes(const tinygltf::Model& model);
 
 // Cameras of the placed nodes, in the file's node order.
-std::vector<Camera> placeCameras(const tinygltf::Model& model, const std::vector<Placement>& nodes,
-                                 SceneNotes& notes);
+std::vector<Camera> placeCameras(const SourceFile& source, const tinygltf::Model& model,
+                                 const std::vector<Placement>& nodes);
 
 } // namespace irradia::gltf

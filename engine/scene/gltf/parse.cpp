@@ -102,7 +102,7 @@ void refuseOmissions(const SourceFile& source, const std::string& errors) {
     for (std::string line; std::getline(lines, line);)
         if (!line.empty() && line != "." && line.find("inverseBindMatrices") == std::string::npos &&
             line.find("nimation") == std::string::npos && line.find("'node' property") == std::string::npos)
-            source.refuse("{}", line);
+            source.report({{}, {}}, {}, "{}", line);
 }
 
 std::string firstLine(const std::string& text) {
@@ -111,13 +111,16 @@ std::string firstLine(const std::string& text) {
 
 } // namespace
 
-tinygltf::Model parseModel(const SourceFile& source, SceneNotes& notes) {
+JsonFindings readJson(const SourceFile& source) {
     refuseForeignFormat(source);
-    const std::string_view json = jsonText(source);
-    const JsonFindings findings = guardJson(source, json);
+    JsonFindings findings = guardJson(source, jsonText(source));
     refuseUnreadableExtensions(source, findings);
-    noteExtensions(findings, notes);
+    noteExtensions(source, findings);
+    return findings;
+}
 
+tinygltf::Model parseModel(const SourceFile& source, const JsonFindings& findings) {
+    const std::string_view json = jsonText(source);
     FileAccess access{source, findings, nullptr};
     tinygltf::TinyGLTF reader;
     reader.SetFsCallbacks(fileCallbacks(access));
@@ -136,12 +139,16 @@ tinygltf::Model parseModel(const SourceFile& source, SceneNotes& notes) {
     } catch (const std::exception& exception) { // std::out_of_range, nlohmann's type errors
         source.refuse("{}", exception.what());
     }
-    if (access.error) std::rethrow_exception(access.error);
+    if (access.error) {
+        source.attempt({{}, "/buffers"}, {}, [&] { std::rethrow_exception(access.error); });
+        return {};
+    }
     if (!parsed) source.refuse("{}", firstLine(errors));
     refuseOmissions(source, errors);
-    if (!warnings.empty()) warnOnce(notes, firstLine(warnings));
+    if (!warnings.empty()) source.note(Severity::Warning, {}, {}, firstLine(warnings));
     if (model.asset.version.substr(0, 2) != "2.")
-        source.refuse("UNKNOWN_ASSET_MAJOR_VERSION: glTF {}, only 2 can be read", model.asset.version);
+        source.refuse({{}, "/asset/version"}, "UNKNOWN_ASSET_MAJOR_VERSION", "glTF {}, only 2 can be read",
+                      model.asset.version);
     return model;
 }
 

@@ -2,13 +2,17 @@
 #pragma once
 
 #include "engine/scene/gltf/file.h"
+#include "engine/scene/gltf/json_guard.h"
 #include "engine/scene/gltf/model.h"
-#include "engine/scene/scene.h"
 
 namespace irradia::gltf {
 
+// The JSON alone, as text: another format, broken JSON and extensions without which nothing can be read are
+// refused. Notes what is left out.
+JsonFindings readJson(const SourceFile& source);
+
 // Throws BadData for broken files, NotFound for missing buffers. Indices in the model are unchecked: validate
-// next.
-tinygltf::Model parseModel(const SourceFile& source, SceneNotes& notes);
+// next; where errors are collected and there was one, the model is not whole.
+tinygltf::Model parseModel(const SourceFile& source, const JsonFindings& findings);
 
 } // namespace irradia::gltf

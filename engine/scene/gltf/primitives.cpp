@@ -1,7 +1,6 @@
 #include "engine/scene/gltf/primitives.h"
 
 #include "engine/scene/gltf/accessors.h"
-#include "engine/scene/gltf/features.h"
 #include "engine/scene/gltf/tangents.h"
 #include <cmath>
 #include <optional>
@@ -44,12 +43,11 @@ bool isUsable(glm::vec3 direction) {
 class PrimitiveReader {
 public:
     PrimitiveReader(const SourceFile& source, const tinygltf::Model& model,
-                    const tinygltf::Primitive& primitive, std::string owner, Scene& scene)
+                    const tinygltf::Primitive& primitive, Thing owner, const Scene& scene)
         : source_(source)
         , model_(model)
         , primitive_(primitive)
         , owner_(std::move(owner))
-        , notes_(scene.notes)
         , positions_(attribute(model, primitive, "POSITION"))
         , normals_(attribute(model, primitive, "NORMAL"))
         , uv_{attribute(model, primitive, "TEXCOORD_0"), attribute(model, primitive, "TEXCOORD_1")} {
@@ -75,9 +73,8 @@ public:
         }
         if (generates) generateTangents(mesh_, uvSet_);
         if (badUv_)
-            warnOnce(notes_, fmt::format("{}: ACCESSOR_INVALID_FLOAT: texture coordinates that are not "
-                                         "finite or beyond {} are taken as 0",
-                                         owner_, kMaxUv));
+            source_.warn(owner_, "ACCESSOR_INVALID_FLOAT",
+                         "texture coordinates that are not finite or beyond {} are taken as 0", kMaxUv);
         return std::move(mesh_);
     }
 
@@ -85,7 +82,8 @@ private:
     std::vector<glm::uvec3> sourceTriangles() const {
         const uint64_t count = triangleCount(model_, primitive_);
         if (primitive_.mode == TINYGLTF_MODE_TRIANGLES && cornerCount(model_, primitive_) % 3 != 0)
-            warnOnce(notes_, owner_ + ": the last indices make no whole triangle and are left out");
+            source_.note(Severity::Warning, owner_.pointer, "MESH_PRIMITIVE_INCOMPATIBLE_MODE",
+                         owner_.name + ": the last indices make no whole triangle and are left out");
         View indices;
         if (primitive_.indices >= 0) indices.emplace(model_, primitive_.indices);
         std::vector<glm::uvec3> triangles(count);
@@ -101,8 +99,9 @@ private:
     uint32_t checkedIndex(const AccessorView& indices, uint64_t i) const {
         const uint32_t index = indices.index(i);
         if (index >= positions_->count())
-            source_.refuse("{}: ACCESSOR_INDEX_OOB: accessor {} element {} is {}, there are {} vertices",
-                           owner_, primitive_.indices, i, index, positions_->count());
+            source_.refuse(owner_.at("indices"), "ACCESSOR_INDEX_OOB",
+                           "accessor {} element {} is {}, there are {} vertices", primitive_.indices, i,
+                           index, positions_->count());
         return index;
     }
 
@@ -152,16 +151,14 @@ private:
              {&material.baseColorTexture, &material.metallicRoughnessTexture, &material.normalTexture,
               &material.emissiveTexture, &material.specularTexture, &material.specularColorTexture})
             if (ref->image >= 0 && !uv_[ref->uvSet])
-                warnOnce(notes_,
-                         fmt::format("{}: MESH_PRIMITIVE_TOO_FEW_TEXCOORDS: its material needs TEXCOORD_{}",
-                                     owner_, ref->uvSet));
+                source_.warn(owner_, "MESH_PRIMITIVE_TOO_FEW_TEXCOORDS", "its material needs TEXCOORD_{}",
+                             ref->uvSet);
     }
 
     const SourceFile& source_;
     const tinygltf::Model& model_;
     const tinygltf::Primitive& primitive_;
-    std::string owner_;
-    SceneNotes& notes_;
+    Thing owner_;
     View positions_, normals_, tangents_;
     View uv_[2];
     bool mapped_ = false; // has a normal map
@@ -172,6 +169,13 @@ private:
 };
 
 } // namespace
+
+Thing primitiveThing(size_t index, const tinygltf::Mesh& mesh, size_t primitive) {
+    return thing("mesh", "meshes", index, mesh.name)
+        .called(fmt::format("primitive {}", primitive))
+        .at("primitives")
+        .at(primitive);
+}
 
 uint64_t vertexCount(const tinygltf::Model& model, const tinygltf::Primitive& primitive) {
     const auto position = primitive.attributes.find("POSITION");
@@ -192,18 +196,21 @@ uint64_t triangleCount(const tinygltf::Model& model, const tinygltf::Primitive& 
 }
 
 std::vector<PrimitiveMesh> readMesh(const SourceFile& source, const tinygltf::Model& model, int mesh,
-                                    Scene& scene) {
+                                    const Scene& scene) {
     const tinygltf::Mesh& from = model.meshes[mesh];
     std::vector<PrimitiveMesh> primitives;
     for (size_t p = 0; p < from.primitives.size(); ++p) {
         const tinygltf::Primitive& primitive = from.primitives[p];
-        const std::string owner = fmt::format("{} primitive {}", label("mesh", mesh, from.name), p);
+        const Thing owner = primitiveThing(static_cast<size_t>(mesh), from, p);
         if (!primitive.attributes.contains("POSITION"))
-            warnOnce(scene.notes, owner + " is left out: it has no positions");
+            source.note(Severity::Warning, owner.pointer, "MESH_PRIMITIVE_NO_POSITION",
+                        owner.name + " is left out: it has no positions");
         else if (primitive.mode < TINYGLTF_MODE_TRIANGLES)
-            warnOnce(scene.notes, "points and lines are left out");
+            source.note(Severity::Info, "/meshes", kNotRendered, "points and lines are left out");
         else if (triangleCount(model, primitive) > 0)
-            primitives.push_back(PrimitiveReader(source, model, primitive, owner, scene).read());
+            source.attempt(owner, {}, [&] {
+                primitives.push_back(PrimitiveReader(source, model, primitive, owner, scene).read());
+            });
     }
     return primitives;
 }

@@ -16,6 +16,9 @@ struct PrimitiveMesh {
     uint32_t material = 0;
 };
 
+// "mesh 2 'cup' primitive 0"
+Thing primitiveThing(size_t index, const tinygltf::Mesh& mesh, size_t primitive);
+
 // Vertices a primitive names, used or not.
 uint64_t vertexCount(const tinygltf::Model& model, const tinygltf::Primitive& primitive);
 
@@ -25,6 +28,6 @@ uint64_t triangleCount(const tinygltf::Model& model, const tinygltf::Primitive& 
 // Every triangle primitive of a mesh; the model has passed validateModel. Throws BadData for an index out of
 // range.
 std::vector<PrimitiveMesh> readMesh(const SourceFile& source, const tinygltf::Model& model, int mesh,
-                                    Scene& scene);
+                                    const Scene& scene);
 
 } // namespace irradia::gltf

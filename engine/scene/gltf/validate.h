@@ -7,8 +7,17 @@
 
 namespace irradia::gltf {
 
-// Throws BadData at the first fault of a buffer view, accessor, mesh, material, texture, image, skin, node or
-// scene.
-void validateModel(const SourceFile& source, const tinygltf::Model& model);
+// What has passed, and may be read; all of it where errors are thrown.
+struct Soundness {
+    bool data = false;      // buffer views and accessors
+    bool materials = false; // with their textures
+    bool meshes = false;
+    bool nodes = false;
+    bool cameras = false;
+};
+
+// Checks buffer views, accessors, meshes, materials, textures, images, cameras, skins, nodes and scenes.
+// Throws BadData at the first fault, or collects one for each thing.
+Soundness validateModel(const SourceFile& source, const tinygltf::Model& model);
 
 } // namespace irradia::gltf

@@ -26,7 +26,8 @@ using Points = std::vector<glm::uvec4>;
 // `samples` samples of each of `pixels` pixels, one pixel after the other.
 Points draw(const glm::uvec4& first, uint32_t pixels, uint32_t samples, uint32_t which = gpu::kSamplerBlock,
             uint32_t sampler = gpu::kSamplerSobol, uint32_t width = kWidth) {
-    static std::map<uint32_t, test::KernelHarness> kernels;
+    // Never destroyed: made before the device, it would outlive the validation layer.
+    static auto& kernels = *new std::map<uint32_t, test::KernelHarness>;
     const auto kernel = kernels
                             .try_emplace(sampler, kernels::sampler_path_bits,
                                          std::vector<Specialisation>{{gpu::kConstantSampler, sampler}})

@@ -114,7 +114,7 @@ std::vector<glm::uvec4> loadSurfaces(const Scene& scene, const std::vector<Query
     for (const Query& q : queries) {
         records.emplace_back(glm::uvec3(std::bit_cast<glm::uvec3>(glm::vec3(-q.ray.direction))),
                              q.hit.triangle);
-        records.push_back(test::toRecord(glm::vec4(q.hit.u, q.hit.v, 0, 0)));
+        records.push_back(test::toQuad(glm::vec4(q.hit.u, q.hit.v, 0, 0)));
     }
     test::KernelHarness kernel(kernels::scene_load_surface, {{gpu::kConstantTextures, gpu.needs.textures}});
     const Buffer input = test::quadBuffer(records);

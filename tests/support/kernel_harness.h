@@ -19,8 +19,8 @@ inline Specialisation floatConstant(uint32_t id, float value) {
     return {id, std::bit_cast<uint32_t>(value)};
 }
 
-// Record and floats, bit by bit.
-inline glm::uvec4 toRecord(const glm::vec4& v) {
+// Quad and floats, bit by bit.
+inline glm::uvec4 toQuad(const glm::vec4& v) {
     return std::bit_cast<glm::uvec4>(v);
 }
 inline glm::vec4 toFloats(const glm::uvec4& v) {
@@ -31,25 +31,25 @@ class KernelHarness {
 public:
     explicit KernelHarness(const KernelSource& source, const std::vector<Specialisation>& constants = {});
 
-    // Binds `inputs` in order and then the output of `records` records, which is returned.
+    // Binds `inputs` in order and then the output of `quads` quads, which is returned.
     template <typename Params>
     std::vector<glm::uvec4> run(const std::vector<BufferRange>& inputs, const Params& params, uint64_t items,
-                                size_t records) {
-        Buffer output(validatedDevice(), "results", records * sizeof(glm::uvec4));
+                                size_t quads) {
+        Buffer output(validatedDevice(), "results", quads * sizeof(glm::uvec4));
         FrameGraph graph(validatedDevice());
         Pass pass = graph.pass(kernel_);
         for (const BufferRange& input : inputs) pass.read(input);
         pass.write(output).push(params).dispatch(items);
         graph.execute();
-        return download<glm::uvec4>(validatedDevice(), output, records);
+        return download<glm::uvec4>(validatedDevice(), output, quads);
     }
 
 private:
     Kernel kernel_;
 };
 
-// A device buffer of records, for inputs.
-Buffer quadBuffer(const std::vector<glm::uvec4>& records);
-Buffer quadBuffer(const std::vector<glm::vec4>& records);
+// A device buffer of quads, for inputs.
+Buffer quadBuffer(const std::vector<glm::uvec4>& quads);
+Buffer quadBuffer(const std::vector<glm::vec4>& quads);
 
 } // namespace irradia::test

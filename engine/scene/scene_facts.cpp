@@ -22,7 +22,7 @@ const char* nameOf(gltf::Support support) {
     }
 }
 
-// An image-based light and a scene that has one; those of KHR_lights_punctual are tinygltf's.
+// Punctual lights, which tinygltf reads, and image-based ones, which it keeps as JSON.
 uint64_t countLights(const tinygltf::Model& model) {
     uint64_t count = model.lights.size();
     if (const auto found = model.extensions.find("EXT_lights_image_based"); found != model.extensions.end())

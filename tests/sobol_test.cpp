@@ -143,7 +143,8 @@ TEST_CASE("the first 2^m points of a pixel fill every elementary interval of a p
 TEST_CASE("a sample of 2^m x 2^m pixels in their place fills every elementary interval evenly") {
     for (const uint32_t sample : {0u, 5u, 65535u, 65536u}) {
         // The second tile of a picture that is one tile wide.
-        const Points rows = draw({256, sample, 2, kSeed}, 256, 1, gpu::kSamplerBlock, gpu::kSamplerSobol, kTileSide);
+        const Points rows =
+            draw({256, sample, 2, kSeed}, 256, 1, gpu::kSamplerBlock, gpu::kSamplerSobol, kTileSide);
         Points inOrder;
         for (uint32_t i = 0; i < 256; ++i) {
             uint32_t x = 0, y = 0;

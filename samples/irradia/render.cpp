@@ -119,7 +119,7 @@ void addRender(CLI::App& program) {
         ->default_str(fmt::format("{}; {} where --max-bounces 0 leaves nothing to a cache",
                                   usualMethod(1).name, usualMethod(0).name));
     options->outputs.addOptions(*command);
-    command->add_flag("--aov", options->request.surfaces, "Add albedo, normal, position and depth layers")
+    command->add_flag("--aov", options->request.layers, "Add albedo, normal, position and depth layers")
         ->group("Output");
     addFrameOptions(*command, *options);
     addProgressOption(*command, options->progress);

@@ -100,7 +100,7 @@ nlohmann::ordered_json optionsOf(const RenderRequest& request, const FramePlan& 
                                    {"changes", request.changes},
                                    {"view", request.view},
                                    {"reference", request.reference},
-                                   {"aov", request.surfaces},
+                                   {"aov", request.layers},
                                    {"device", request.device.select},
                                    {"subgroup", request.device.subgroupSize},
                                    {"form", request.form},

@@ -117,7 +117,7 @@ MethodRequest RenderSession::methodRequest() const {
     method.paths.samplesPerFrame = request_.samplesPerFrame;
     method.paths.seed = request_.seed;
     method.paths.sampler = parseSampler(request_.sampler);
-    method.paths.layers = request_.surfaces;
+    method.paths.layers = request_.layers;
     method.seed = request_.seed;
     method.options = request_.methodOptions;
     method.form = kernelForm(request_.form).network;
@@ -181,10 +181,14 @@ void RenderSession::setMethod(const std::string& method, const std::map<std::str
 }
 
 void RenderSession::change(const SceneChange& change) {
+    if (apply(change)) updateScene(*device_, scene_, gpuScene_);
+}
+
+bool RenderSession::apply(const SceneChange& change) {
     change.applyTo(scene_);
     if (change.camera) camera_ = *change.camera;
     if (change.restart) forgetFilm();
-    if (change.changesScene()) updateScene(*device_, scene_, gpuScene_);
+    return change.changesScene();
 }
 
 void RenderSession::setCamera(const Camera& camera) {
@@ -194,12 +198,7 @@ void RenderSession::setCamera(const Camera& camera) {
 
 void RenderSession::applyChanges(uint32_t frame) {
     bool isChanged = false;
-    for (const SceneChange& change : changes_.takeUpTo(frame)) {
-        change.applyTo(scene_);
-        isChanged = isChanged || change.changesScene();
-        if (change.camera) camera_ = *change.camera;
-        if (change.restart) forgetFilm();
-    }
+    for (const SceneChange& change : changes_.takeUpTo(frame)) isChanged = apply(change) || isChanged;
     if (isChanged) updateScene(*device_, scene_, gpuScene_);
 }
 

@@ -31,7 +31,7 @@ struct RenderRequest {
     std::string changes; // JSON of scripted_changes.h
     uint32_t firstFrame = 0;
     std::optional<uint32_t> endFrame; // number after the last frame's, where it is known beforehand
-    bool surfaces = false;            // gather the AOV layers
+    bool layers = false;              // gather the AOV layers
     bool strict = false;              // warnings about the scene are errors
     DeviceOptions device;             // but for the access to quads, which `form` says
     std::string form = "auto";        // of the kernels: kernel_form.h
@@ -86,6 +86,7 @@ private:
     void createRenderer();
     void step() const;
     void applyChanges(uint32_t frame);
+    bool apply(const SceneChange& change); // whether the scene on the device is another now
     double renderWith(uint32_t randomIndex);
 
     RenderRequest request_;

@@ -28,12 +28,22 @@ struct TextureRef {
     int uvSet = 0;  // 0 or 1
     Wrap wrapS = Wrap::Repeat;
     Wrap wrapT = Wrap::Repeat;
+    glm::mat3x2 transform{1, 0, 0, 1, 0, 0}; // KHR_texture_transform: uv' = transform * (u, v, 1)
 };
 
-// glTF 2.0 metallic-roughness with KHR_materials_emissive_strength, _specular and _ior (Appendix B's terms).
+// How much of a surface is there, its coverage: all of it, or by `alpha` times the alpha of its texture and
+// of its vertices' colour all or nothing of a point (Mask, from alphaCutoff on), or that share (Blend). Light
+// passes straight on through the rest.
+enum class AlphaMode : uint32_t { Opaque, Mask, Blend };
+
+// glTF 2.0 metallic-roughness with KHR_materials_emissive_strength, _specular, _ior, _transmission, _volume
+// and _unlit (Appendix B's terms).
 struct Material {
     std::string name;
     glm::vec3 baseColor{1.0f};
+    float alpha = 1.0f;
+    AlphaMode alphaMode = AlphaMode::Opaque;
+    float alphaCutoff = 0.5f;
     float metallic = 1.0f;
     float roughness = 1.0f; // perceptual; alpha = roughness^2
     float normalScale = 1.0f;
@@ -43,13 +53,19 @@ struct Material {
     float specular = 1.0f;         // KHR_materials_specular, specularFactor
     glm::vec3 specularColor{1.0f}; // KHR_materials_specular, specularColorFactor
     bool doubleSided = false; // false: emits from its front face only; it blocks and scatters on both sides
+    bool isUnlit = false; // KHR_materials_unlit: black, two-sided, and its emission (the file's base colour)
+                          // is times the vertices' colour
+    float transmission = 0.0f;  // KHR_materials_transmission, transmissionFactor
+    bool isThin = true;         // a sheet, without an inside: KHR_materials_volume absent, or of thickness 0
+    glm::vec3 absorption{0.0f}; // of the inside of what is not thin, per unit of length in the world
 
-    TextureRef baseColorTexture;         // sRGB, times baseColor
+    TextureRef baseColorTexture;         // sRGB, times baseColor; A, times alpha
     TextureRef metallicRoughnessTexture; // linear, G times roughness, B times metallic
     TextureRef normalTexture;            // linear, tangent space, xy times normalScale
     TextureRef emissiveTexture;          // sRGB, times emission
     TextureRef specularTexture;          // linear, A times specular
     TextureRef specularColorTexture;     // sRGB, times specularColor
+    TextureRef transmissionTexture;      // linear, R times transmission
 };
 
 struct Vertex {
@@ -57,6 +73,7 @@ struct Vertex {
     glm::vec3 normal{0.0f};  // unit; the flat face normal where the file has none
     glm::vec4 tangent{0.0f}; // unit xyz, w = handedness (bitangent = w * cross(normal, tangent)); 0 if unused
     glm::vec2 uv[2] = {glm::vec2(0.0f), glm::vec2(0.0f)};
+    glm::vec4 color{1.0f}; // times the base colour and its alpha, linear, >= 0
 };
 
 struct Triangle {
@@ -74,6 +91,24 @@ struct Camera {
     float halfHeight = 0.0f;              // of an orthographic view, glTF's ymag; 0 = a pinhole
 
     bool isOrthographic() const { return halfHeight > 0.0f; }
+};
+
+// A light without extent (KHR_lights_punctual).
+struct PunctualLight {
+    enum class Kind : uint32_t { Point, Spot, Directional };
+
+    std::string name;
+    Kind kind = Kind::Point;
+    glm::vec3 position{0.0f};               // of points and spots
+    glm::vec3 direction{0.0f, 0.0f, -1.0f}; // unit, along which spots and directional lights shine
+    glm::vec3 intensity{0.0f}; // W/sr; of directional lights irradiance of what faces them, W/m^2
+    // Of points and spots: the distance at which light ends, by the factor max(1 - (distance / range)^4, 0).
+    // 0 = none.
+    float range = 0.0f;
+    // Of spots, radians from the axis: full intensity within the inner angle, none beyond the outer one, and
+    // between them the square of what is linear in the cosine.
+    float innerAngle = 0.0f;
+    float outerAngle = 0.78539816f;
 };
 
 // Light from outside: an equirectangular picture (u = atan2(z, x) / 2 pi + 1/2, v = acos(y) / pi, first row =
@@ -102,6 +137,7 @@ struct Scene {
     std::vector<Material> materials; // at least one when there are triangles
     std::vector<TextureImage> images;
     std::vector<Camera> cameras;
+    std::vector<PunctualLight> lights;
     Environment environment;
     SceneNotes notes;
     std::vector<std::filesystem::path> files; // that it was read from

@@ -18,9 +18,9 @@ Device& device() {
 }
 
 // tests/shaders/uniform_lights.
-const VertexKernels kUniformLights{&kernels::handle_escaped_rays_uniform_lights,
-                                   &kernels::handle_emissive_hits_uniform_lights,
-                                   &kernels::scatter_uniform_lights, &kernels::add_direct_light};
+const VertexKernels kUniformLights{
+    &kernels::handle_escaped_rays_uniform_lights, &kernels::handle_emissive_hits_uniform_lights,
+    &kernels::scatter_uniform_lights, &kernels::add_direct_light, &kernels::add_filtered_light};
 
 // Triangles that give light and reflect it, under a sky with a sun; seen from among them.
 struct Lit {

@@ -89,7 +89,7 @@ private:
             .read(rayBuffer)
             .read(counterBuffer)
             .write(results)
-            .push(gpu::TraceParams{1, bvh_.root})
+            .push(gpu::TraceParams{1, bvh_.root, {}})
             .dispatch(count / gpu::kRaysPerLane + 2 * kernel.workgroupSize()); // idle groups do no harm
         graph.execute();
         CHECK(device_.validationMessages() == 0);

@@ -14,14 +14,20 @@ Bounces::Bounces(Device& device, const GpuScene& scene, const PathTracerOptions&
     , constants_(constants)
     , traceArguments_(buffers.arguments, gpu::kTraceArguments * 4, 12)
     , itemArguments_(buffers.arguments, gpu::kItemArguments * 4, 12)
-    , begin_(device, kernels::begin_bounce)
-    , intersectClosest_(device, kernels::intersect_closest)
-    , intersectShadow_(device, kernels::intersect_shadow) {
+    , begin_(device, kernels::begin_bounce) {
     const KernelOptions fit = fittedTo(scene.needs, options);
+    if (scene.needs.transparency) {
+        intersectClosest_ = Kernel(device, kernels::intersect_closest_transparent, fit);
+        intersectShadow_ = Kernel(device, kernels::intersect_shadow_transparent, fit);
+    } else {
+        intersectClosest_ = Kernel(device, kernels::intersect_closest);
+        intersectShadow_ = Kernel(device, kernels::intersect_shadow);
+    }
     handleEscapedRays_ = Kernel(device, *options.kernels.handleEscapedRays, fit);
     handleEmissiveHits_ = Kernel(device, *options.kernels.handleEmissiveHits, fit);
     scatter_ = Kernel(device, *options.kernels.scatter, fit);
-    addDirectLight_ = Kernel(device, *options.kernels.addDirectLight);
+    addDirectLight_ = Kernel(device, scene.needs.transparency ? *options.kernels.addFilteredLight
+                                                              : *options.kernels.addDirectLight);
 }
 
 void Bounces::add(FrameGraph& graph, const gpu::WaveParams& params, bool areTraced, bool scatters,
@@ -35,7 +41,7 @@ void Bounces::add(FrameGraph& graph, const gpu::WaveParams& params, bool areTrac
     graph.cut();
     if (!scatters || scene_.triangles == 0) return;
     scatter(graph, params, tap);
-    connect(graph, tap);
+    connect(graph, params, tap);
     graph.cut();
 }
 
@@ -51,12 +57,13 @@ void Bounces::begin(FrameGraph& graph, const gpu::WaveParams& params, bool areTr
 }
 
 void Bounces::intersect(FrameGraph& graph, const gpu::WaveParams& params) const {
-    graph.pass(intersectClosest_)
-        .read(scene_.bvh)
+    Pass pass = graph.pass(intersectClosest_);
+    pass.read(scene_.bvh)
         .read(buffers_.rays[params.queueParity])
         .read(buffers_.counters)
-        .write(buffers_.hits)
-        .push(gpu::TraceParams{gpu::kRayCounter + params.queueParity, scene_.bvhRoot})
+        .write(buffers_.hits);
+    if (scene_.needs.transparency) readSurfaces(pass.read(constants_).readWrite(buffers_.passages), scene_);
+    pass.push(gpu::TraceParams{gpu::kRayCounter + params.queueParity, scene_.bvhRoot, params})
         .dispatchIndirect(traceArguments_);
 }
 
@@ -73,14 +80,14 @@ Pass Bounces::handling(FrameGraph& graph, const Kernel& kernel, const gpu::WaveP
 
 void Bounces::handleEscapedRays(FrameGraph& graph, const gpu::WaveParams& params, const PathTap* tap) const {
     Pass pass = handling(graph, handleEscapedRays_, params);
-    pass.read(scene_.lights).read(scene_.environment);
+    pass.read(scene_.lights).read(scene_.environment).read(buffers_.passages);
     if (tap) pass.bind(tap->light);
     pass.push(params).dispatchIndirect(itemArguments_);
 }
 
 void Bounces::handleEmissiveHits(FrameGraph& graph, const gpu::WaveParams& params, const PathTap* tap) const {
     Pass pass = handling(graph, handleEmissiveHits_, params);
-    readSurfaces(pass, scene_).read(scene_.lights);
+    readSurfaces(pass, scene_).read(scene_.lights).read(buffers_.passages);
     if (tap) pass.bind(tap->light);
     pass.push(params).dispatchIndirect(itemArguments_);
 }
@@ -94,19 +101,18 @@ void Bounces::scatter(FrameGraph& graph, const gpu::WaveParams& params, const Pa
     readLights(readSurfaces(pass, scene_), scene_)
         .read(scene_.reflectanceTable)
         .write(buffers_.rays[1 - params.queueParity])
-        .write(buffers_.shadowRays);
+        .write(buffers_.shadowRays)
+        .readWrite(buffers_.passages);
     if (tap) pass.bind(tap->light).bind(tap->vertex);
     pass.push(params).dispatchIndirect(itemArguments_);
 }
 
 // The light samples: there is at most one a ray.
-void Bounces::connect(FrameGraph& graph, const PathTap* tap) const {
-    graph.pass(intersectShadow_)
-        .read(scene_.bvh)
-        .read(buffers_.shadowRays)
-        .read(buffers_.counters)
-        .write(buffers_.visibility)
-        .push(gpu::TraceParams{gpu::kShadowRayCounter, scene_.bvhRoot})
+void Bounces::connect(FrameGraph& graph, const gpu::WaveParams& params, const PathTap* tap) const {
+    Pass shadow = graph.pass(intersectShadow_);
+    shadow.read(scene_.bvh).read(buffers_.shadowRays).read(buffers_.counters).write(buffers_.visibility);
+    if (scene_.needs.transparency) readSurfaces(shadow, scene_);
+    shadow.push(gpu::TraceParams{gpu::kShadowRayCounter, scene_.bvhRoot, params})
         .dispatchIndirect(traceArguments_);
     Pass pass = graph.pass(addDirectLight_);
     pass.read(buffers_.shadowRays)

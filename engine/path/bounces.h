@@ -25,7 +25,7 @@ private:
     void handleEscapedRays(FrameGraph& graph, const gpu::WaveParams& params, const PathTap* tap) const;
     void handleEmissiveHits(FrameGraph& graph, const gpu::WaveParams& params, const PathTap* tap) const;
     void scatter(FrameGraph& graph, const gpu::WaveParams& params, const PathTap* tap) const;
-    void connect(FrameGraph& graph, const PathTap* tap) const;
+    void connect(FrameGraph& graph, const gpu::WaveParams& params, const PathTap* tap) const;
 
     const GpuScene& scene_;
     const WaveBuffers& buffers_;

@@ -33,6 +33,7 @@ void SurfaceRays::generate(FrameGraph& graph, const WaveBuffers& buffers, const 
     pass.read(constants).write(buffers.rays[0]).write(buffers.hits).readWrite(buffers.counters);
     readSurfaces(pass, scene_)
         .read(scene_.areaTable)
+        .write(buffers.passages)
         .push(gpu::SurfaceRayParams{wave, distance})
         .dispatch(wave.paths);
 }

@@ -11,6 +11,7 @@ struct VertexKernels {
     const KernelSource* handleEmissiveHits = nullptr;
     const KernelSource* scatter = nullptr;
     const KernelSource* addDirectLight = nullptr;
+    const KernelSource* addFilteredLight = nullptr; // likewise, where surfaces let light through
     bool keepsPathStates = false; // the tap has a quad per path of a wave: WavefrontPathTracer::pathStates
 
     bool operator==(const VertexKernels&) const = default;

@@ -23,24 +23,26 @@ uint32_t WaveBuffers::largestWave(bool isCpu, const PathTracerOptions& options) 
                      std::min(options.unseenPaths, wanted), Waves::kPixelAlignment});
 }
 
-std::vector<Device::PlannedBuffer> WaveBuffers::planned(bool isCpu, const PathTracerOptions& options) {
+std::vector<Device::PlannedBuffer> WaveBuffers::planned(bool isCpu, const PathTracerOptions& options,
+                                                        bool isTransparent) {
     const uint64_t wave = largestWave(isCpu, options);
     return {{"ray queue", wave * gpu::kRayQuads * 16},
             {"next ray queue", wave * gpu::kRayQuads * 16},
             {"hits", wave * 16},
             {"shadow ray queue", wave * gpu::kShadowRayQuads * 16},
-            {"visibility", wave * 4},
+            {"visibility", wave * (isTransparent ? 16 : 4)},
+            {"passages", isTransparent ? wave * 16 : kUnused},
             {"path states", options.kernels.keepsPathStates ? wave * 16 : kUnused},
             {"path radiance", wave * 16},
             {"queue counters", gpu::kCounters * 4},
             {"dispatch arguments", gpu::kDispatchArguments * 4}};
 }
 
-WaveBuffers::WaveBuffers(Device& device, const PathTracerOptions& options) {
-    const auto plan = planned(device.isCpu(), options);
+WaveBuffers::WaveBuffers(Device& device, const PathTracerOptions& options, bool isTransparent) {
+    const auto plan = planned(device.isCpu(), options, isTransparent);
     auto next = plan.begin();
-    for (Buffer* buffer : {&rays[0], &rays[1], &hits, &shadowRays, &visibility, &pathStates, &radiance,
-                           &counters, &arguments}) {
+    for (Buffer* buffer : {&rays[0], &rays[1], &hits, &shadowRays, &visibility, &passages, &pathStates,
+                           &radiance, &counters, &arguments}) {
         *buffer = Buffer(device, next->name, next->bytes);
         ++next;
     }

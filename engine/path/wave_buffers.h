@@ -11,10 +11,11 @@ namespace irradia {
 
 struct WaveBuffers {
     // Allocates them.
-    WaveBuffers(Device& device, const PathTracerOptions& options);
+    WaveBuffers(Device& device, const PathTracerOptions& options, bool isTransparent);
 
-    // What the constructor allocates, in its order.
-    static std::vector<Device::PlannedBuffer> planned(bool isCpu, const PathTracerOptions& options);
+    // What the constructor allocates, in its order. `isTransparent`: surfaces of the scene let light through.
+    static std::vector<Device::PlannedBuffer> planned(bool isCpu, const PathTracerOptions& options,
+                                                      bool isTransparent = true);
 
     // Paths in flight that are wanted, and those that there are at most.
     static uint32_t wantedWave(bool isCpu, const PathTracerOptions& options);
@@ -22,6 +23,7 @@ struct WaveBuffers {
 
     std::array<Buffer, 2> rays; // RayQueue: current and next
     Buffer hits, shadowRays, visibility;
+    Buffer passages;   // a quad per path (shared/queue.h)
     Buffer pathStates; // a quad per path, a tap's
     Buffer radiance;   // vec4 per path
     Buffer counters, arguments;

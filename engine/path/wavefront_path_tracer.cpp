@@ -14,7 +14,7 @@ WavefrontPathTracer::WavefrontPathTracer(Device& device, const GpuScene& scene,
     , options_(options)
     , graph_(device, profiler)
     , waveSize_(WaveBuffers::largestWave(device.isCpu(), options))
-    , buffers_(device, options)
+    , buffers_(device, options, scene.needs.transparency)
     , constants_(device, "frame constants", sizeof(FrameUniforms))
     , cameraRays_(device, scene, options)
     , surfaceRays_(device, scene, options)

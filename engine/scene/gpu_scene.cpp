@@ -49,7 +49,7 @@ void requirePlanned(const Scene& state, const GpuScene& scene) {
     PlannedStates all = scene.states;
     all.include(state);
     if (all.emitters != scene.states.emitters || all.environment != scene.states.environment ||
-        all.specular != scene.states.specular)
+        all.specular != scene.states.specular || all.glass != scene.states.glass)
         fail(ExitCode::Internal, "scene '{}': it was not planned that its {} change so", state.name,
              all.emitters != scene.states.emitters ? "lamps" : "environment or materials");
 }

@@ -40,8 +40,14 @@ void packGeometry(const Scene& scene, const std::vector<uint32_t>& lightOf, Pack
     }
 }
 
+glm::uvec2 halves(const glm::vec4& v) {
+    return {glm::packHalf2x16({v.x, v.y}), glm::packHalf2x16({v.z, v.w})};
+}
+
 void packAttributes(const Scene& scene, PackedScene& out) {
-    out.attributes.reserve(scene.triangles.size() * gpu::kAttributeQuads);
+    const bool hasColors = (out.needs.textures & gpu::kVertexColors) != 0;
+    out.attributes.reserve(scene.triangles.size() *
+                           (hasColors ? gpu::kColouredAttributeQuads : gpu::kAttributeQuads));
     for (const Triangle& t : scene.triangles) {
         const Vertex& a = scene.vertices[t.vertex.x];
         const Vertex& b = scene.vertices[t.vertex.y];
@@ -52,11 +58,30 @@ void packAttributes(const Scene& scene, PackedScene& out) {
         out.attributes.emplace_back(packOctahedral(glm::vec3(a.tangent)),
                                     packOctahedral(glm::vec3(b.tangent)),
                                     packOctahedral(glm::vec3(c.tangent)), 0u);
+        if (!hasColors) continue;
+        out.attributes.emplace_back(halves(a.color), halves(b.color));
+        out.attributes.emplace_back(halves(c.color), glm::uvec2(0u));
     }
+}
+
+bool hasColors(const Scene& scene) {
+    return std::ranges::any_of(scene.vertices, [](const Vertex& v) { return v.color != glm::vec4(1.0f); });
 }
 
 bool isSpecular(const Material& m) {
     return m.specular > 0.0f || m.metallic > 0.0f;
+}
+
+bool isSheet(const Material& m) {
+    return m.transmission > 0.0f && m.isThin;
+}
+
+bool isSolid(const Material& m) {
+    return m.transmission > 0.0f && !m.isThin;
+}
+
+bool scattersTransmitted(const Material& m) {
+    return isSolid(m) || (isSheet(m) && m.roughness * m.roughness > gpu::kMinAlpha);
 }
 
 void packMaterials(const Scene& scene, PackedScene& out) {
@@ -77,10 +102,15 @@ void packMaterials(const Scene& scene, PackedScene& out) {
             emits ? use(m.emissiveTexture, true, gpu::kEmissiveTexture) : gpu::kNoTexture;
         const uint32_t specular = use(m.specularTexture, false, gpu::kSpecularTexture);
         const uint32_t color = use(m.specularColorTexture, true, gpu::kSpecularColorTexture);
+        const uint32_t transmission = use(m.transmissionTexture, false, gpu::kTransmissionTexture);
         out.materials.emplace_back(base, rough, normal, emissive);
-        out.materials.emplace_back(specular, color, 0u, 0u);
+        out.materials.emplace_back(specular, color, transmission, bits(m.ior));
+        out.materials.push_back(quad(m.absorption, bits(m.transmission)));
     }
+    if (hasColors(scene)) out.needs.textures |= gpu::kVertexColors;
+    if (packer.hasTransforms()) out.needs.textures |= gpu::kTextureTransforms;
     out.needs.specular = out.states.specular;
+    out.needs.glass = out.states.glass;
     packer.pack(kMaxBindingBytes / sizeof(glm::uvec2), out.textures, out.texels, out.warnings);
 }
 
@@ -104,19 +134,36 @@ uint32_t packOctahedral(const glm::vec3& n) {
     return glm::packSnorm2x16(p);
 }
 
+bool mayLetThrough(const Scene& scene, const Triangle& triangle) {
+    const Material& m = scene.materials[triangle.material];
+    if (isSheet(m)) return true;
+    if (m.alphaMode == AlphaMode::Opaque) return false;
+    const auto isOpaque = [&](uint32_t vertex) { return scene.vertices[vertex].color.a >= 1.0f; };
+    return m.alpha < 1.0f || m.baseColorTexture.image >= 0 || !isOpaque(triangle.vertex.x) ||
+           !isOpaque(triangle.vertex.y) || !isOpaque(triangle.vertex.z);
+}
+
 void PlannedStates::include(const Scene& state) {
     const std::vector<double> luminances = emissiveLuminances(state);
     emitters.resize(luminances.size(), false);
     for (size_t i = 0; i < luminances.size(); ++i) emitters[i] = emitters[i] || luminances[i] > 0.0;
     environment |= !state.environment.isBlack();
-    for (const Material& material : state.materials) specular |= isSpecular(material);
+    for (const Material& material : state.materials) {
+        specular |= isSpecular(material);
+        glass |= scattersTransmitted(material);
+    }
 }
 
 std::array<glm::uvec4, kMaterialValueQuads> packMaterialValues(const Material& m) {
     const float r = (m.ior - 1.0f) / (m.ior + 1.0f);
+    const uint32_t flags = (m.doubleSided ? gpu::kMaterialDoubleSided : 0u) |
+                           (m.alphaMode == AlphaMode::Mask ? gpu::kMaterialMask : 0u) |
+                           (m.alphaMode == AlphaMode::Blend ? gpu::kMaterialBlend : 0u) |
+                           (m.isUnlit ? gpu::kMaterialUnlit : 0u) | (isSheet(m) ? gpu::kMaterialSheet : 0u) |
+                           (isSolid(m) ? gpu::kMaterialSolid : 0u);
     return {quad(glm::vec4(m.baseColor, m.metallic)), quad(glm::vec4(m.emission, m.roughness)),
             quad(glm::vec4(r * r * m.specularColor, m.specular)),
-            glm::uvec4(bits(m.normalScale), m.doubleSided ? gpu::kMaterialDoubleSided : 0u, 0u, 0u)};
+            glm::uvec4(bits(m.normalScale), flags, bits(m.alpha), bits(m.alphaCutoff))};
 }
 
 PackedScene packScene(const Scene& scene, const PlannedStates& states) {
@@ -132,6 +179,9 @@ PackedScene packScene(const Scene& scene, const PlannedStates& states) {
     packMaterials(scene, out);
     packGeometry(scene, lights.lightOf, out);
     if (out.needs.textures != 0) packAttributes(scene, out);
+    out.needs.transparency =
+        std::ranges::any_of(scene.materials, isSolid) ||
+        std::ranges::any_of(scene.triangles, [&](const Triangle& t) { return mayLetThrough(scene, t); });
     out.needs.environment = out.states.environment;
     if (out.needs.environment) packEnvironment(scene.environment, out);
     out.environmentProbability = environmentProbability(scene, out.needs);

@@ -14,9 +14,15 @@ struct SceneNeeds {
     bool environment = false; // light from outside
     bool emitters = false;    // emissive triangles
     bool lightTree = false;   // so many that a hierarchy chooses among them
-    uint32_t textures = 0;    // mask of gpu::kBaseColorTexture, ...
+    uint32_t textures = 0;    // mask of gpu::kBaseColorTexture, ..., and of vertex attributes
     bool specular = false;
+    bool transparency = false; // some surface lets light straight on through, or has an inside
+    bool glass = false;        // some surface scatters what it transmits
 };
+
+// Whether some light may go straight on through a triangle: what its pictures have in fact there is known
+// when a ray meets it.
+bool mayLetThrough(const Scene& scene, const Triangle& triangle);
 
 // States that a scene on a device will take (its geometry and pictures stay as they are): so that its lights
 // and kernels have room for all of them. Include each state; that which is packed counts by itself.
@@ -24,6 +30,7 @@ struct PlannedStates {
     std::vector<bool> emitters; // a material that emits in some state; empty = none
     bool environment = false;   // light from outside in some state
     bool specular = false;
+    bool glass = false;
 
     void include(const Scene& state);
 };
@@ -57,7 +64,7 @@ PackedScene packScene(const Scene& scene, const PlannedStates& states = {});
 // Octahedral map of a unit vector (Cigolle et al. 2014); of a vector without direction gpu::kNoTangent.
 uint32_t packOctahedral(const glm::vec3& n);
 
-// The first quads of a material: all but its textures.
+// The first quads of a material: what may change while it is rendered.
 inline constexpr uint32_t kMaterialValueQuads = 4;
 std::array<glm::uvec4, kMaterialValueQuads> packMaterialValues(const Material& material);
 

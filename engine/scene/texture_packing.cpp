@@ -3,6 +3,7 @@
 #include "shared/scene.h"
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <fmt/format.h>
 #include <glm/gtc/packing.hpp>
@@ -59,10 +60,19 @@ glm::uvec2 packHalves(const glm::vec4& v) {
 
 uint32_t TexturePacker::add(const TextureRef& use, bool srgb) {
     if (use.image < 0) return gpu::kNoTexture;
-    const Use key{use.image, srgb, use.wrapS, use.wrapT};
+    const glm::mat3x2& t = use.transform;
+    const Use key{use.image, srgb, use.wrapS, use.wrapT, {t[0].x, t[0].y, t[1].x, t[1].y, t[2].x, t[2].y}};
     const auto [entry, added] = indices_.try_emplace(key, static_cast<uint32_t>(uses_.size()));
     if (added) uses_.push_back(key);
     return entry->second << 1 | static_cast<uint32_t>(use.uvSet & 1);
+}
+
+bool TexturePacker::isTransformed(const Use& use) {
+    return use.transform != std::array{1.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f};
+}
+
+bool TexturePacker::hasTransforms() const {
+    return std::ranges::any_of(uses_, isTransformed);
 }
 
 void TexturePacker::pack(uint64_t maxTexels, std::vector<glm::uvec4>& quads, std::vector<glm::uvec2>& texels,
@@ -95,9 +105,18 @@ void TexturePacker::pack(uint64_t maxTexels, std::vector<glm::uvec4>& quads, std
         placed[key] = {static_cast<uint32_t>(texels.size()), uint32_t(image.width), uint32_t(image.height)};
         for (const glm::vec4& texel : image.texels) texels.push_back(packHalves(texel));
     }
+    auto transform = static_cast<uint32_t>(uses_.size()); // the next one's quad
     for (const Use& use : uses_) {
         const Placed& p = placed.at({use.image, use.srgb});
-        quads.emplace_back(p.first, p.width, p.height, uint32_t(use.wrapS) | uint32_t(use.wrapT) << 2);
+        const uint32_t wrap = uint32_t(use.wrapS) | uint32_t(use.wrapT) << 2;
+        quads.emplace_back(p.first, p.width, p.height, wrap | (isTransformed(use) ? transform << 4 : 0u));
+        transform += isTransformed(use) ? 2 : 0;
+    }
+    for (const Use& use : uses_) {
+        if (!isTransformed(use)) continue;
+        const auto& t = use.transform;
+        quads.push_back(std::bit_cast<glm::uvec4>(glm::vec4(t[0], t[1], t[2], t[3])));
+        quads.push_back(std::bit_cast<glm::uvec4>(glm::vec4(t[4], t[5], 0.0f, 0.0f)));
     }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/scene/scene.h"
+#include <array>
 #include <glm/glm.hpp>
 #include <map>
 #include <string>
@@ -18,6 +19,9 @@ public:
     // The material's code for a texture: quad index << 1 | uv set, or gpu::kNoTexture.
     uint32_t add(const TextureRef& use, bool srgb);
 
+    // Some picture is used by transformed coordinates. Of what has been added.
+    bool hasTransforms() const;
+
     // Writes the texture quads and all texels. Where they exceed maxTexels the largest pictures are halved
     // (box filter) until they fit; each is named in `warnings`.
     void pack(uint64_t maxTexels, std::vector<glm::uvec4>& quads, std::vector<glm::uvec2>& texels,
@@ -28,8 +32,11 @@ private:
         int image;
         bool srgb;
         Wrap wrapS, wrapT;
+        std::array<float, 6> transform; // by columns
         auto operator<=>(const Use&) const = default;
     };
+    static bool isTransformed(const Use& use);
+
     const Scene& scene_;
     std::map<Use, uint32_t> indices_;
     std::vector<Use> uses_;

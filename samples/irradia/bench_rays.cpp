@@ -59,7 +59,7 @@ public:
             .read(rays_)
             .read(counters_)
             .write(results_)
-            .push(gpu::TraceParams{0, root_})
+            .push(gpu::TraceParams{0, root_, {}})
             .dispatch((count_ + gpu::kRaysPerLane - 1) / gpu::kRaysPerLane);
         const auto start = std::chrono::steady_clock::now();
         graph_.execute();

@@ -12,13 +12,20 @@ struct Traversal {
     vec3 origin;
     vec3 direction;
     vec3 reciprocal; // of the direction
+    float tMin;      // hits lie beyond it
     float tMax;      // nearest hit so far
     uint primitive;  // of that hit; kNoPrimitive = none
+    bool isTransparent; // of that hit: it may let light straight on through
     float u, v;
     uint item;  // to be visited next; kEndOfTraversal = none is left
     uint group; // the innermost group; the others are on the stack
     uint depth; // groups on the stack, its empty bottom included
 };
+
+// With which hit a traversal ends.
+const uint kNearestHit = 0u;
+const uint kAnyHit = 1u;
+const uint kAnyOpaqueHit = 2u; // else with the nearest
 
 const float kUnbounded = 1e30;
 const uint kEndOfTraversal = 0xffffffffu;
@@ -39,8 +46,10 @@ Traversal beginTraversal(uint root, vec3 origin, vec3 direction, float tMax) {
     ray.origin = traceable ? origin : vec3(0.0);
     ray.direction = traceable ? direction : vec3(1.0);
     ray.reciprocal = safeReciprocal(ray.direction);
+    ray.tMin = 0.0;
     ray.tMax = traceable ? tMax : -1.0;
     ray.primitive = kNoPrimitive;
+    ray.isTransparent = false;
     ray.u = 0.0;
     ray.v = 0.0;
     ray.item = root;
@@ -50,6 +59,17 @@ Traversal beginTraversal(uint root, vec3 origin, vec3 direction, float tMax) {
     return ray;
 }
 
+// Goes on beyond the hit with which the ray has ended, up to tMax.
+void resumeTraversal(inout Traversal ray, uint root, float tMax) {
+    ray.tMin = ray.tMax;
+    ray.tMax = tMax;
+    ray.primitive = kNoPrimitive;
+    ray.item = root;
+    ray.group = kEmptyGroup;
+    ray.depth = 1u;
+    groupStack[0] = kEmptyGroup;
+}
+
 // Tests a triangle item; `isTriangle` false gives it zero edges. (Not the node's words: read as floats they are
 // often denormal, and cost an x86 core a hundred cycles each.)
 bool visitTriangle(inout Traversal ray, bool isTriangle, uvec4 a, uvec4 b, uvec4 c) {
@@ -57,11 +77,12 @@ bool visitTriangle(inout Traversal ray, bool isTriangle, uvec4 a, uvec4 b, uvec4
     vec3 e2 = uintBitsToFloat(isTriangle ? uvec3(b.w, c.xy) : uvec3(0u));
     float margin = uintBitsToFloat(isTriangle ? c.z : 0u);
     float t, u, v;
-    bool hit = intersectTriangle(ray.origin, ray.direction, ray.tMax, uintBitsToFloat(a.xyz), e1, e2, margin, t, u, v);
+    bool hit = intersectTriangle(ray.origin, ray.direction, ray.tMin, ray.tMax, uintBitsToFloat(a.xyz), e1, e2, margin, t, u, v);
     ray.tMax = hit ? t : ray.tMax;
     ray.u = hit ? u : ray.u;
     ray.v = hit ? v : ray.v;
     ray.primitive = hit ? a.w & kPrimitiveMask : ray.primitive;
+    ray.isTransparent = hit ? c.w != 0u : ray.isTransparent;
     return hit;
 }
 
@@ -77,7 +98,7 @@ uvec4 visitNode(Traversal ray, uvec4 a, uvec4 b, uvec4 c) {
 }
 
 // Visits ray.item and chooses the next one.
-void traversalStep(inout Traversal ray, const bool anyHit) {
+void traversalStep(inout Traversal ray, const uint lastHit) {
     uint quad = ray.item * kItemQuads;
     uvec4 a = loadQuad(bvh, quad);
     uvec4 b = loadQuad(bvh, quad + 1u);
@@ -101,7 +122,8 @@ void traversalStep(inout Traversal ray, const bool anyHit) {
     bool pop = back && (ray.group & kChildMask) == kNoChild;
     ray.group = pop ? outer : ray.group;
     ray.depth -= pop ? 1u : 0u;
-    bool end = (back && (ray.group & kChildMask) == kNoChild) || (anyHit && hit);
+    bool end = (back && (ray.group & kChildMask) == kNoChild) || (lastHit == kAnyHit && hit) ||
+               (lastHit == kAnyOpaqueHit && hit && !ray.isTransparent);
     next = back ? (ray.group >> kGroupBits) + (ray.group & kChildMask) : next;
     uint rest = (ray.group & ~kGroupMask) | ((ray.group & kGroupMask) >> kChildBits) | kLastChild;
     ray.group = back ? rest : ray.group;

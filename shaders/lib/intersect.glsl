@@ -17,10 +17,10 @@ vec3 safeReciprocal(vec3 d) {
     return 1.0 / mix(d, vec3(kTiny), lessThan(abs(d), vec3(kTiny)));
 }
 
-// Moeller and Trumbore 1997, two-sided, 0 < t < tMax. A degenerate triangle is never hit: its u is NaN.
+// Moeller and Trumbore 1997, two-sided, tMin < t < tMax. A degenerate triangle is never hit: its u is NaN.
 // `margin` is 8 roundings of the longer edge (shared/bvh.h): times the distance and over the determinant it bounds the
 // error of u and v, which outgrows the fixed tolerance where triangles are thin, or small for their distance.
-bool intersectTriangle(vec3 origin, vec3 direction, float tMax, vec3 p0, vec3 e1, vec3 e2, float margin,
+bool intersectTriangle(vec3 origin, vec3 direction, float tMin, float tMax, vec3 p0, vec3 e1, vec3 e2, float margin,
                        out float t, out float u, out float v) {
     vec3 p = cross(direction, e2);
     float inverse = 1.0 / dot(e1, p);
@@ -30,7 +30,7 @@ bool intersectTriangle(vec3 origin, vec3 direction, float tMax, vec3 p0, vec3 e1
     v = dot(direction, q) * inverse;
     t = dot(e2, q) * inverse;
     float tolerance = kEdgeTolerance + (abs(s.x) + abs(s.y) + abs(s.z)) * abs(margin * inverse);
-    return min(u, v) >= -tolerance && u + v <= 1.0 + tolerance && t > 0.0 && t < tMax;
+    return min(u, v) >= -tolerance && u + v <= 1.0 + tolerance && t > tMin && t < tMax;
 }
 
 vec4 unpackBytes(uint word) {

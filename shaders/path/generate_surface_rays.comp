@@ -18,6 +18,7 @@ QUADS_READ(6, materials);
 QUADS_READ(7, textures);
 HALVES_READ(8, texels);
 QUADS_READ(9, areaTable);
+QUADS_WRITE(10, passages);
 layout(push_constant) uniform Push { WaveParams params; float viewDistance; };
 #include "path/scene.glsl"
 
@@ -50,4 +51,5 @@ void main() {
     storeQuad(rays, path * kRayQuads + 1u, uvec4(floatBitsToUint(-towardsViewer), 0u));
     storeQuad(rays, path * kRayQuads + 2u, uvec4(floatBitsToUint(vec3(1.0)), 0u));
     storeQuad(hits, path, uvec4(floatBitsToUint(viewDistance), primitive, floatBitsToUint(b)));
+    if (kHasTransparency) storeQuad(passages, path, uvec4(floatBitsToUint(vec3(1.0)), 0u)); // outside of all media
 }

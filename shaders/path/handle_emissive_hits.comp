@@ -18,10 +18,12 @@ QUADS_READ(7, materials);
 QUADS_READ(8, textures);
 HALVES_READ(9, texels);
 QUADS_READ(10, lights);
+QUADS_READ(11, passages);
 layout(push_constant) uniform Push { WaveParams params; };
-#define TAP_BINDING 11
+#define TAP_BINDING 12
 #include "tap_light.glsl"
 #include "path/lights/triangles.glsl"
+#include "path/passage.glsl"
 #include "lib/sampling.glsl"
 
 void main() {
@@ -40,7 +42,8 @@ void main() {
     float doubleArea = length(normal);
     float cosine = -dot(normal, ray.xyz) / doubleArea; // > 0: the front is hit
     vec3 emitted = emittedRadiance(tri.material, cosine > 0.0,
-                                   attributesFor(kEmissiveTexture, hit.y, uintBitsToFloat(hit.zw)));
+                                   attributesFor(kEmissionAttributes, hit.y, uintBitsToFloat(hit.zw)));
+    emitted *= passageOf(path);
     float weight = 1.0;
     if (params.depth > 0u) {
         Receiver receiver = Receiver(uintBitsToFloat(origin.xyz), decodeOctahedral(beta.w));

@@ -14,10 +14,12 @@ COUNTERS_READ(3, counters);
 layout(set = 0, binding = 4, std430) buffer Radiance { vec4 radiance[]; };
 QUADS_READ(5, lights);
 QUADS_READ(6, environment);
+QUADS_READ(7, passages);
 layout(push_constant) uniform Push { WaveParams params; };
-#define TAP_BINDING 7
+#define TAP_BINDING 8
 #include "tap_light.glsl"
 #include "path/lights/environment.glsl"
+#include "path/passage.glsl"
 
 void main() {
     uint slot = gl_GlobalInvocationID.x;
@@ -29,7 +31,7 @@ void main() {
 
     vec2 uv = equirectOfDirection(ray.xyz);
     float weight = params.depth == 0u ? 1.0 : powerHeuristic(ray.w, environmentPdf(uv));
-    vec3 emitted = environmentRadiance(uv);
+    vec3 emitted = environmentRadiance(uv) * passageOf(path);
     radiance[path].rgb += beta * emitted * weight;
     if (params.depth > 0u) hearEmission(path, emitted * weight);
 }

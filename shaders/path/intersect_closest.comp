@@ -1,5 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#pragma folders path/transparency/none
+#pragma variant intersect_closest_transparent path/transparency/some
 // Nearest hit of every ray of the queue. A lane whose ray has ended takes the next of its subgroup's rays.
 #include "lib/kernel.glsl"
 #include "shared/trace.h"
@@ -11,6 +13,7 @@ QUADS_WRITE(3, hits);
 layout(push_constant) uniform Push { TraceParams params; };
 
 #include "lib/bvh.glsl"
+#include "closest_passage.glsl"
 
 Traversal takeRay(uint slot) {
     uvec4 origin = loadQuad(rays, slot * kRayQuads);
@@ -29,8 +32,8 @@ void main() {
     Traversal ray;
     if (working) ray = takeRay(slot);
     while (working) {
-        traversalStep(ray, false);
-        if (ray.item == kEndOfTraversal) {
+        traversalStep(ray, kNearestHit);
+        if (ray.item == kEndOfTraversal && !passes(slot, ray)) {
             storeHit(slot, ray);
             slot += kSubgroupSize;
             working = slot < end;

@@ -1,5 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#pragma folders path/transparency/none
+#pragma variant intersect_shadow_transparent path/transparency/some
 // Whether anything lies on each shadow ray of the queue. A lane whose ray has ended takes the next of its subgroup's.
 #include "lib/kernel.glsl"
 #include "shared/trace.h"
@@ -7,10 +9,10 @@
 QUADS_READ(0, bvh);
 QUADS_READ(1, rays);
 COUNTERS_READ(2, counters);
-WORDS_WRITE(3, visibility);
 layout(push_constant) uniform Push { TraceParams params; };
 
 #include "lib/bvh.glsl"
+#include "shadow_passage.glsl"
 
 Traversal takeRay(uint slot) {
     uvec4 origin = loadQuad(rays, slot * kShadowRayQuads);
@@ -26,9 +28,9 @@ void main() {
     Traversal ray;
     if (working) ray = takeRay(slot);
     while (working) {
-        traversalStep(ray, true);
-        if (ray.item == kEndOfTraversal) {
-            storeWord(visibility, slot, ray.primitive == kNoPrimitive ? 1u : 0u);
+        traversalStep(ray, kShadowingHit);
+        if (ray.item == kEndOfTraversal && !passes(slot, ray)) {
+            storeVisibility(slot, ray);
             slot += kSubgroupSize;
             working = slot < end;
             if (working) ray = takeRay(slot);

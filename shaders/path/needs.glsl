@@ -10,5 +10,7 @@ layout(constant_id = kConstantSpecular) const bool kHasSpecular = true;
 layout(constant_id = kConstantView) const uint kView = kViewPicture;
 layout(constant_id = kConstantLightTree) const bool kHasLightTree = false;
 layout(constant_id = kConstantSampler) const uint kSampler = kSamplerRandom;
+layout(constant_id = kConstantTransparency) const bool kHasTransparency = false;
+layout(constant_id = kConstantGlass) const bool kHasGlass = false;
 
 #endif

@@ -22,13 +22,15 @@ QUADS_READ(11, environmentAlias);
 QUADS_READ(12, reflectanceTable);
 QUADS_WRITE(13, nextRays);
 QUADS_WRITE(14, shadowRays);
+QUADS(15, passages);
 layout(push_constant) uniform Push { WaveParams params; };
 #include "path/light_sampling.glsl"
+#include "path/passage.glsl"
 #include "path/sampler.glsl"
 #include "path/reflectance.glsl"
 #include "path/surface.glsl"
 #include "path/wave.glsl"
-#define TAP_BINDING 15
+#define TAP_BINDING 16
 #include "tap_light.glsl"
 #include "tap_vertex.glsl"
 
@@ -70,7 +72,9 @@ void main() {
 
     Surface s = loadSurface(alive ? hit.y : 0u, uintBitsToFloat(hit.zw), view);
     float arrivalPdf = uintBitsToFloat(loadQuad(rays, slot * kRayQuads + 1u).w);
-    Visit visit = arrive(alive, path, pixel, s, view, uintBitsToFloat(hit.x), arrivalPdf, beta);
+    vec3 passage = passageOf(path);
+    beta *= passage;
+    Visit visit = arrive(alive, path, pixel, s, view, uintBitsToFloat(hit.x), arrivalPdf, passage, beta);
     alive = visit.goesOn;
     vec3 directLight = vec3(0.0); // as the tap hears it
     Frame local = frameFromNormal(s.shadingNormal);

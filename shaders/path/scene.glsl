@@ -24,14 +24,19 @@ TriangleGeometry loadTriangle(uint primitive) {
     return TriangleGeometry(uintBitsToFloat(r0.xyz), uintBitsToFloat(r1.xyz), uintBitsToFloat(r2.xyz), r0.w, r1.w, r2.w);
 }
 
-// Texture coordinates of both sets at barycentrics (u, v), and the tangents' codes.
+// Texture coordinates of both sets at barycentrics (u, v), the tangents' codes, and the vertices' colour.
 struct TriangleAttributes {
     vec2 uv[2];
     uvec3 tangents;
+    vec4 color;
 };
 
+const uint kAttributeStride = (kTextureMask & kVertexColors) != 0u ? kColouredAttributeQuads : kAttributeQuads;
+
+vec4 colorOf(uvec2 halves) { return vec4(unpackHalf2x16(halves.x), unpackHalf2x16(halves.y)); }
+
 TriangleAttributes loadAttributes(uint primitive, vec2 b) {
-    uint at = primitive * kAttributeQuads;
+    uint at = primitive * kAttributeStride;
     vec4 a0 = uintBitsToFloat(loadQuad(attributes, at));
     vec4 a1 = uintBitsToFloat(loadQuad(attributes, at + 1u));
     vec4 a2 = uintBitsToFloat(loadQuad(attributes, at + 2u));
@@ -41,7 +46,18 @@ TriangleAttributes loadAttributes(uint primitive, vec2 b) {
     result.uv[0] = b0 * a0.xy + b.x * a0.zw + b.y * a1.xy;
     result.uv[1] = b0 * a1.zw + b.x * a2.xy + b.y * a2.zw;
     result.tangents = a3.xyz;
+    result.color = vec4(1.0);
+    if ((kTextureMask & kVertexColors) != 0u) {
+        uvec4 c01 = loadQuad(attributes, at + 4u);
+        uvec4 c2 = loadQuad(attributes, at + 5u);
+        result.color = b0 * colorOf(c01.xy) + b.x * colorOf(c01.zw) + b.y * colorOf(c2.xy);
+    }
     return result;
+}
+
+TriangleAttributes attributesFor(uint mask, uint primitive, vec2 b) {
+    if ((kTextureMask & mask) != 0u) return loadAttributes(primitive, b);
+    return TriangleAttributes(vec2[2](vec2(0.0), vec2(0.0)), uvec3(kNoTangent), vec4(1.0));
 }
 
 // From 0 to n - 1. The quotient may be one off, and is on GPUs, whose division need not be exact for multiples of n.
@@ -58,12 +74,20 @@ int wrapTexel(int i, int size, uint mode) {
     return mode == 0u ? repeated : (mode == 1u ? mirrored : clamped);
 }
 
+// KHR_texture_transform.
+vec2 transformed(vec2 uv, uint transform) {
+    vec4 columns = uintBitsToFloat(loadQuad(textures, transform));
+    vec2 offset = uintBitsToFloat(loadQuad(textures, transform + 1u).xy);
+    return transform == 0u ? uv : uv.x * columns.xy + uv.y * columns.zw + offset;
+}
+
 // Bilinear at texel centres; (1, 1, 1, 1) for kNoTexture.
 vec4 sampleTexture(uint code, TriangleAttributes a) {
     bool none = code == kNoTexture;
     uvec4 texture = loadQuad(textures, none ? 0u : code >> 1u);
     ivec2 size = max(ivec2(texture.yz), ivec2(1));
     vec2 uv = (code & 1u) == 0u ? a.uv[0] : a.uv[1];
+    if ((kTextureMask & kTextureTransforms) != 0u) uv = transformed(uv, texture.w >> 4u);
     // A non-finite or absurd coordinate must not become an undefined integer.
     vec2 x = clamp(uv * vec2(size) - 0.5, vec2(-1e6), vec2(1e6));
     vec2 corner = floor(x);
@@ -80,18 +104,17 @@ vec4 sampleTexture(uint code, TriangleAttributes a) {
     return none ? vec4(1.0) : mix(top, bottom, f.y);
 }
 
+// Which attributes emittedRadiance takes.
+const uint kEmissionAttributes = kEmissiveTexture | kVertexColors;
+
 // Radiance that a triangle's front (or a double-sided one's either side) emits at texture coordinates `a`.
 vec3 emittedRadiance(uint material, bool front, TriangleAttributes a) {
     uint at = material * kMaterialQuads;
     vec3 emission = uintBitsToFloat(loadQuad(materials, at + 1u).xyz);
     uint flags = loadQuad(materials, at + 3u).y;
     if ((kTextureMask & kEmissiveTexture) != 0u) emission *= sampleTexture(loadQuad(materials, at + 4u).w, a).rgb;
+    if ((kTextureMask & kVertexColors) != 0u && (flags & kMaterialUnlit) != 0u) emission *= a.color.rgb;
     return front || (flags & kMaterialDoubleSided) != 0u ? emission : vec3(0.0);
-}
-
-TriangleAttributes attributesFor(uint mask, uint primitive, vec2 b) {
-    if ((kTextureMask & mask) != 0u) return loadAttributes(primitive, b);
-    return TriangleAttributes(vec2[2](vec2(0.0), vec2(0.0)), uvec3(kNoTangent));
 }
 
 #endif

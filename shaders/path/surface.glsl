@@ -12,6 +12,9 @@ struct Surface {
     vec3 shadingNormal;   // likewise, and never facing away from the viewer
     Bsdf bsdf;
     float roughness;
+    bool isFront;
+    float transmission; // of what is neither metal nor reflected
+    vec3 transmitted;   // its colour: base colour (1 - metallic) transmission
 };
 
 const float kMinShadingCosine = 0.01; // of the viewer: interpolated and mapped normals are bent to it
@@ -33,7 +36,7 @@ vec3 perturbNormal(vec3 ns, vec3 texel, float scale, TriangleAttributes a, uint 
 Surface loadSurface(uint primitive, vec2 b, vec3 view) {
     TriangleGeometry tri = loadTriangle(primitive);
     uvec3 normals = loadQuad(geometry, primitive * kGeometryQuads + 3u).xyz;
-    TriangleAttributes a = attributesFor(63u, primitive, b);
+    TriangleAttributes a = attributesFor(kAllAttributes, primitive, b);
 
     uint at = tri.material * kMaterialQuads;
     vec4 m0 = uintBitsToFloat(loadQuad(materials, at));
@@ -53,6 +56,7 @@ Surface loadSurface(uint primitive, vec2 b, vec3 view) {
     if (kTextureMask != 0u) {
         uvec4 codes = loadQuad(materials, at + 4u);
         uvec4 codes2 = loadQuad(materials, at + 5u);
+        if ((kTextureMask & kVertexColors) != 0u) base *= a.color.rgb;
         if ((kTextureMask & kBaseColorTexture) != 0u) base *= sampleTexture(codes.x, a).rgb;
         if ((kTextureMask & kMetallicRoughnessTexture) != 0u) {
             vec4 texel = sampleTexture(codes.y, a);
@@ -82,6 +86,16 @@ Surface loadSurface(uint primitive, vec2 b, vec3 view) {
     s.shadingNormal = ns;
     s.roughness = clamp(roughness, 0.0, 1.0);
     s.bsdf = makeBsdf(base, clamp(metallic, 0.0, 1.0), s.roughness, f0, specular);
+    s.isFront = front;
+    s.transmission = 0.0;
+    s.transmitted = vec3(0.0);
+    if (kHasTransparency) {
+        float transmission = uintBitsToFloat(loadQuad(materials, at + 6u).w);
+        if ((kTextureMask & kTransmissionTexture) != 0u) transmission *= sampleTexture(loadQuad(materials, at + 5u).z, a).r;
+        s.transmission = clamp(transmission, 0.0, 1.0);
+        s.transmitted = s.bsdf.diffuse * s.transmission;
+        s.bsdf.diffuse *= 1.0 - s.transmission;
+    }
     return s;
 }
 

@@ -1,11 +1,14 @@
-// Which pixel and sample a path of the wave is. `params` is a WaveParams (shared/path.h).
+// Which pixel and sample a path of the wave is. WAVE is a WaveParams (shared/path.h), `params` unless it is defined.
 #ifndef IRRADIA_PATH_WAVE_GLSL
 #define IRRADIA_PATH_WAVE_GLSL
+#ifndef WAVE
+#define WAVE params
+#endif
 
-uint pixelOf(uint path) { return params.firstPixel + (path >> params.log2Samples); }
+uint pixelOf(uint path) { return WAVE.firstPixel + (path >> WAVE.log2Samples); }
 
-uint sampleInWave(uint path) { return path & ((1u << params.log2Samples) - 1u); }
+uint sampleInWave(uint path) { return path & ((1u << WAVE.log2Samples) - 1u); }
 
-uint sampleOf(uint path) { return params.sampleIndex + sampleInWave(path); }
+uint sampleOf(uint path) { return WAVE.sampleIndex + sampleInWave(path); }
 
 #endif

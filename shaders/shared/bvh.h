@@ -11,7 +11,7 @@
 // Triangle:
 //   0: p0 xyz, primitive | kTriangleItem
 //   1: e1 xyz, e2 x
-//   2: e2 yz, margin (8 * 2^-24 times the longer edge), 0
+//   2: e2 yz, margin (8 * 2^-24 times the longer edge), 1 if it may let light straight on through, else 0
 //
 // A group, what a traversal keeps on its stack: the item of a node's child 0 << kGroupBits and, nearest first, the
 // numbers of the children still to be visited, kChildBits each; kNoChild where there are no more.

@@ -14,11 +14,15 @@ SHARED_CONST uint kRayQuads = 3u;
 // barycentrics u, v (floats): the point is p0 + u e1 + v e2.
 SHARED_CONST uint kNoPrimitive = 0xffffffffu;
 
+// Passage, 1 quad per path of the wave, only in scenes that let light through: what is left of the light from the end of
+// the path's ray on its way (rgb), and the media the ray travels in (path/media.glsl).
+
 // ShadowRayQueue item, 3 quads:
 //   0: origin xyz, t max (float)
 //   1: direction xyz (unit), path index (uint)
 //   2: contribution rgb if unoccluded, unused
-// Visibility, 1 uint per ShadowRayQueue slot: 1 = unoccluded, 0 = occluded.
+// Visibility, 1 uint per ShadowRayQueue slot: 1 = unoccluded, 0 = occluded. In scenes that let light through 1 quad: the
+// share (rgb) of it that arrives.
 SHARED_CONST uint kShadowRayQuads = 3u;
 
 // QueueCounters: a storage buffer of uints.

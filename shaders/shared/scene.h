@@ -13,24 +13,35 @@ SHARED_BEGIN
 SHARED_CONST uint kGeometryQuads = 4u;
 SHARED_CONST uint kNoLight = 0xffffffffu;
 
-// Triangle attributes, only in scenes with textures:
+// Triangle attributes, only in scenes with textures or vertex colours:
 //   0: uv set 0 of vertices 0 and 1;  1: uv set 0 of vertex 2, uv set 1 of vertex 0
 //   2: uv set 1 of vertices 1 and 2;  3: tangents of the three vertices (octahedral; 0 = none), unused
+// and in scenes with vertex colours besides, RGBA as four 16-bit floats each:
+//   4: colours of vertices 0 and 1;   5: colour of vertex 2, unused
 SHARED_CONST uint kAttributeQuads = 4u;
+SHARED_CONST uint kColouredAttributeQuads = 6u;
 SHARED_CONST uint kNoTangent = 0x80008000u; // a code octahedral snorm encoding never makes
 
 // Material:
 //   0: base colour rgb, metallic            1: emission rgb (radiance), roughness
 //   2: dielectric F0 rgb = ((ior-1)/(ior+1))^2 * specular colour, specular factor
-//   3: normal scale, flags, unused          4: texture of base colour, metallic-roughness, normal, emissive
-//   5: texture of specular, specular colour
+//   3: normal scale, flags, alpha, alpha cutoff
+//   4: texture of base colour, metallic-roughness, normal, emissive
+//   5: texture of specular, specular colour, transmission; index of refraction
+//   6: absorption rgb of its inside, transmission
 // A texture is (texture quad index << 1 | uv set), or kNoTexture.
-SHARED_CONST uint kMaterialQuads = 6u;
+SHARED_CONST uint kMaterialQuads = 7u;
 SHARED_CONST uint kMaterialDoubleSided = 1u;
+SHARED_CONST uint kMaterialMask = 2u;  // its alpha is all or nothing,
+SHARED_CONST uint kMaterialBlend = 4u; // or the share that is there
+SHARED_CONST uint kMaterialUnlit = 8u; // its emission is times the vertices' colour
+SHARED_CONST uint kMaterialSheet = 16u; // lets light through, and has no inside
+SHARED_CONST uint kMaterialSolid = 32u; // lets light into its inside
 SHARED_CONST uint kNoTexture = 0xffffffffu;
 
-// Texture, 1 quad: first texel, width, height, wrap s | wrap t << 2 (0 repeat, 1 mirror, 2 clamp).
-// Texels are four 16-bit floats, linear.
+// Texture, 1 quad: first texel, width, height, wrap s | wrap t << 2 (0 repeat, 1 mirror, 2 clamp) | transform << 4.
+// A transform is the quad where it stands, behind all textures (0 = none), 2 quads: the columns of uv' = M uv + offset, and
+// the offset. Texels are four 16-bit floats, linear.
 
 // Emissive triangle, 1 quad: trail, unused, primitive, unused. A trail leads from the root of the hierarchy of lights to
 // the triangle's leaf: bit d = the second child is taken at depth d. Scenes of few lights have no hierarchy, but an alias
@@ -47,13 +58,17 @@ SHARED_CONST uint kLightLeaf = 0x80000000u;
 // Area table, 1 quad per triangle, an entry of the alias table over area: keep probability (float), alias, unused.
 // Only where surfaces are sampled.
 
-// Which textures any material of the scene uses (specialisation constant kTextureMask).
+// Which textures and vertex attributes any material of the scene uses (specialisation constant kTextureMask).
 SHARED_CONST uint kBaseColorTexture = 1u;
 SHARED_CONST uint kMetallicRoughnessTexture = 2u;
 SHARED_CONST uint kNormalTexture = 4u;
 SHARED_CONST uint kEmissiveTexture = 8u;
 SHARED_CONST uint kSpecularTexture = 16u;
 SHARED_CONST uint kSpecularColorTexture = 32u;
+SHARED_CONST uint kTransmissionTexture = 64u;
+SHARED_CONST uint kVertexColors = 128u;
+SHARED_CONST uint kTextureTransforms = 256u;
+SHARED_CONST uint kAllAttributes = 511u;
 
 SHARED_CONST float kMinAlpha = 1e-3f; // GGX alpha = roughness^2 is at least this
 

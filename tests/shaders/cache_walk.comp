@@ -43,10 +43,10 @@ void main() {
         s.bsdf.alpha = part(v, 3u).w;
         s.bsdf.diffuse = part(v, 4u).rgb;
         s.bsdf.specularF0 = part(v, 5u).rgb;
-        CachedPath c = visitVertex(alive, path, path, s, part(v, 1u).xyz, part(v, 0u).w, part(v, 1u).w, beta);
+        CachedPath c = visitVertex(alive, path, path, s, part(v, 1u).xyz, part(v, 0u).w, part(v, 1u).w, vec3(1.0), beta);
         alive = c.renders || c.trains;
         leaveVertex(c, part(v, 7u).rgb, part(v, 6u).rgb);
-        if (alive) hearDirectLight(path);
+        if (alive) hearDirectLight(path, vec3(1.0));
         alive = alive && floatBitsToUint(part(v, 4u).w) != 0u;
         if (alive) hearEmission(path, part(v, 8u).rgb);
         beta *= part(v, 6u).rgb;

@@ -55,7 +55,7 @@ Incident incidentFrom(vec3 direction) {
     TriangleGeometry tri = loadTriangle(hit.primitive);
     if (tri.light == kNoLight) return Incident(vec3(0.0), 0.0);
     bool front = dot(cross(tri.e1, tri.e2), direction) < 0.0;
-    vec3 radiance = emittedRadiance(tri.material, front, attributesFor(kEmissiveTexture, hit.primitive, hit.b));
+    vec3 radiance = emittedRadiance(tri.material, front, attributesFor(kEmissionAttributes, hit.primitive, hit.b));
     return Incident(radiance, hitPdf(hit, direction) * kPdfFault);
 }
 

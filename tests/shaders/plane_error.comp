@@ -48,6 +48,6 @@ void main() {
     }
     float t, u, v;
     float margin = 8.0 * kRounding * max(length(e1), length(e2));
-    bool hit = intersectTriangle(origin, direction, tMax, p0, e1, e2, margin, t, u, v);
+    bool hit = intersectTriangle(origin, direction, 0.0, tMax, p0, e1, e2, margin, t, u, v);
     storeQuad(results, i, floatBitsToUint(vec4(hit ? t : 0.0, error, tMax, distance)));
 }

@@ -19,5 +19,5 @@ void main() {
     if (i >= params.count) return;
     uvec4 query = loadQuad(queries, i);
     vec2 uv = uintBitsToFloat(query.xy);
-    storeQuad(results, i, floatBitsToUint(sampleTexture(query.z, TriangleAttributes(vec2[2](uv, uv), uvec3(0u)))));
+    storeQuad(results, i, floatBitsToUint(sampleTexture(query.z, TriangleAttributes(vec2[2](uv, uv), uvec3(0u), vec4(1.0)))));
 }

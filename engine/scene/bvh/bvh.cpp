@@ -2,6 +2,7 @@
 #include "engine/error.h"
 #include "engine/scene/bvh/binary.h"
 #include "engine/scene/bvh/collapse.h"
+#include "engine/scene/packed_scene.h"
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -130,7 +131,8 @@ private:
         glm::uvec4* quads = &bvh_.quads[size_t{item} * kItem];
         quads[0] = glm::uvec4(bitsOf(p0), primitive | gpu::kTriangleItem);
         quads[1] = glm::uvec4(bitsOf(e1), bitsOf(e2.x));
-        quads[2] = glm::uvec4(bitsOf(e2.y), bitsOf(e2.z), bitsOf(margin), 0u);
+        quads[2] = glm::uvec4(bitsOf(e2.y), bitsOf(e2.z), bitsOf(margin),
+                              mayLetThrough(scene_, scene_.triangles[primitive]) ? 1u : 0u);
         ++bvh_.references;
     }
 

@@ -7,9 +7,11 @@ struct Visit {
     bool listens; // to light that counts for nothing in the picture, too
 };
 
-// A path arrives at a vertex by a ray of that length and density. `beta` is its weight for the picture, and becomes that of
-// what follows: 0 where the picture's path ends. All lanes of a subgroup come here.
-Visit arrive(bool alive, uint path, uint pixel, Surface s, vec3 view, float rayLength, float pdf, inout vec3 beta) {
+// A path arrives at a vertex by a ray of that length and density, whose passage leaves that of the light. `beta` is the path's
+// weight for the picture, and becomes that of what follows: 0 where the picture's path ends. All lanes of a subgroup come
+// here.
+Visit arrive(bool alive, uint path, uint pixel, Surface s, vec3 view, float rayLength, float pdf, vec3 passage,
+             inout vec3 beta) {
     return Visit(alive, false);
 }
 

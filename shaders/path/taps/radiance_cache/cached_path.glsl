@@ -58,7 +58,7 @@ CachedPath beginPath(uint path, uint pixel, float distance, float cosine) {
     return c;
 }
 
-CachedPath continuePath(uint path, float distance, float cosine, float pdf) {
+CachedPath continuePath(uint path, float distance, float cosine, float pdf, vec3 passage) {
     uvec4 state = pathStates[path];
     CachedPath c;
     c.path = path;
@@ -68,7 +68,7 @@ CachedPath continuePath(uint path, float distance, float cosine, float pdf) {
     bool isMirrored = (c.flags & kPathMirrored) != 0u; // a delta lobe adds no spread
     c.spread = uintBitsToFloat(state.y) + (isMirrored ? 0.0 : distance * inversesqrt(pdf * cosine));
     uvec4 training = trainingPaths[max(c.training, 1u) * kTrainingPathVectors - kTrainingPathVectors];
-    c.weight = uintBitsToFloat(training.rgb);
+    c.weight = uintBitsToFloat(training.rgb) * passage;
     c.vertices = training.w;
     return c;
 }
@@ -138,13 +138,14 @@ void endInCache(CachedPath c, CacheInputs inputs) {
 }
 
 // A path arrives at a vertex. `beta` is its weight for the picture, and becomes that of what follows: 0 where it ends.
-CachedPath visitVertex(bool alive, uint path, uint pixel, Surface s, vec3 view, float distance, float pdf, inout vec3 beta) {
+CachedPath visitVertex(bool alive, uint path, uint pixel, Surface s, vec3 view, float distance, float pdf, vec3 passage,
+                       inout vec3 beta) {
     float cosine = max(abs(dot(s.geometricNormal, view)), 1e-6);
     CachedPath c;
     if (params.depth == 0u)
         c = beginPath(path, pixel, distance, cosine);
     else
-        c = continuePath(path, distance, cosine, pdf);
+        c = continuePath(path, distance, cosine, pdf, passage);
     c.trains = alive && c.training != 0u;
     c.renders = alive && (c.flags & kPathEnded) == 0u && params.depth < rule.deepest;
     bool beforeQuery = c.renders && (c.flags & kPathAsked) == 0u;

@@ -22,12 +22,12 @@ void hearEmission(uint path, vec3 emitted) {
     gather(training - 1u, weight.w, uintBitsToFloat(weight.rgb) * emitted);
 }
 
-// The light sample in flight, which has met nothing.
-void hearDirectLight(uint path) {
+// The share of the light sample in flight that nothing has stopped.
+void hearDirectLight(uint path, vec3 share) {
     uint training = pathStates[path].z;
     if (training == 0u) return;
     uint at = (training - 1u) * kTrainingPathVectors;
-    gather(training - 1u, trainingPaths[at].w, uintBitsToFloat(trainingPaths[at + 1u].rgb));
+    gather(training - 1u, trainingPaths[at].w, uintBitsToFloat(trainingPaths[at + 1u].rgb) * share);
 }
 
 #endif

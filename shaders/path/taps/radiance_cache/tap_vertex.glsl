@@ -15,8 +15,9 @@ struct Visit {
     CachedPath path;
 };
 
-Visit arrive(bool alive, uint path, uint pixel, Surface s, vec3 view, float rayLength, float pdf, inout vec3 beta) {
-    CachedPath c = visitVertex(alive, path, pixel, s, view, rayLength, pdf, beta);
+Visit arrive(bool alive, uint path, uint pixel, Surface s, vec3 view, float rayLength, float pdf, vec3 passage,
+             inout vec3 beta) {
+    CachedPath c = visitVertex(alive, path, pixel, s, view, rayLength, pdf, passage, beta);
     if (c.counts) radiance[path].a += 1.0;
     return Visit(c.renders || c.trains, c.trains, c);
 }

@@ -1,0 +1,53 @@
+// What surfaces let straight on through: where they are not (glTF's alpha), and what a clear sheet transmits (smooth
+// KHR_materials_transmission without a volume). Bindings as scene.glsl.
+#ifndef IRRADIA_PATH_SEE_THROUGH_GLSL
+#define IRRADIA_PATH_SEE_THROUGH_GLSL
+#include "path/coverage.glsl"
+
+// Of sheets; what is rougher scatters the light it transmits.
+bool isClear(float roughness) { return square(roughness) <= kMinAlpha; }
+
+// The vertices' normal: what a normal map does to the light that goes straight on is nothing.
+vec3 smoothNormal(uint primitive, vec2 b) {
+    uvec3 codes = loadQuad(geometry, primitive * kGeometryQuads + 3u).xyz;
+    vec3 n = (1.0 - b.x - b.y) * decodeOctahedral(codes.x) + b.x * decodeOctahedral(codes.y) + b.y * decodeOctahedral(codes.z);
+    return n * inversesqrt(max(dot(n, n), 1e-20));
+}
+
+// Of what is there of a sheet: its colour less what it reflects.
+vec3 sheetTransmittance(uint material, TriangleAttributes a, float cosine) {
+    uint at = material * kMaterialQuads;
+    vec4 m0 = uintBitsToFloat(loadQuad(materials, at));
+    vec4 m2 = uintBitsToFloat(loadQuad(materials, at + 2u));
+    float transmission = uintBitsToFloat(loadQuad(materials, at + 6u).w);
+    uvec4 codes = loadQuad(materials, at + 4u);
+    uvec4 codes2 = loadQuad(materials, at + 5u);
+    vec3 base = m0.rgb * a.color.rgb;
+    if ((kTextureMask & kBaseColorTexture) != 0u) base *= sampleTexture(codes.x, a).rgb;
+    if ((kTextureMask & kMetallicRoughnessTexture) != 0u) m0.w *= sampleTexture(codes.y, a).b;
+    if ((kTextureMask & kSpecularTexture) != 0u) m2.w *= sampleTexture(codes2.x, a).a;
+    if ((kTextureMask & kSpecularColorTexture) != 0u) m2.rgb *= sampleTexture(codes2.y, a).rgb;
+    if ((kTextureMask & kTransmissionTexture) != 0u) transmission *= sampleTexture(codes2.z, a).r;
+    float f0 = min(maxComponent(m2.rgb), 1.0);
+    float reflected = m2.w * mix(f0, 1.0, schlickWeight(cosine));
+    return base * ((1.0 - clamp(m0.w, 0.0, 1.0)) * transmission * (1.0 - reflected));
+}
+
+struct SeeThrough {
+    vec3 passing;
+    float coverage; // what scatters, reflects and emits is weighted by this
+};
+
+SeeThrough seeThrough(uint primitive, vec2 b, vec3 direction) {
+    uint material = loadQuad(geometry, primitive * kGeometryQuads).w;
+    TriangleAttributes a = attributesFor(kAllAttributes, primitive, b);
+    float coverage = coverageOf(material, a);
+    vec3 passing = vec3(1.0 - coverage);
+    uint flags = loadQuad(materials, material * kMaterialQuads + 3u).y;
+    float roughness = uintBitsToFloat(loadQuad(materials, material * kMaterialQuads + 1u).w);
+    if ((flags & kMaterialSheet) != 0u && isClear(roughness))
+        passing += coverage * sheetTransmittance(material, a, abs(dot(smoothNormal(primitive, b), direction)));
+    return SeeThrough(passing, coverage);
+}
+
+#endif

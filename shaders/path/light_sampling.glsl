@@ -3,6 +3,7 @@
 #ifndef IRRADIA_PATH_LIGHT_SAMPLING_GLSL
 #define IRRADIA_PATH_LIGHT_SAMPLING_GLSL
 #include "lib/plane_error.glsl"
+#include "path/coverage.glsl"
 #include "lib/rng.glsl"
 #include "path/lights/environment.glsl"
 #include "path/lights/triangles.glsl"
@@ -43,7 +44,9 @@ LightSample sampleTriangleLight(Receiver receiver, uvec4 random) {
     float doubleArea = length(normal);
     normal /= doubleArea;
     float cosine = -dot(normal, direction); // > 0: seen from the front
-    vec3 radiance = emittedRadiance(tri.material, cosine > 0.0, attributesFor(kEmissionAttributes, primitive, b));
+    TriangleAttributes a = attributesFor(kEmissionAttributes, primitive, b);
+    vec3 radiance = emittedRadiance(tri.material, cosine > 0.0, a);
+    if (kHasTransparency) radiance *= coverageOf(tri.material, a);
     float pdf = abs(cosine) > 1e-6 ? trianglePdf(choice.chance, 0.5 * doubleArea, distance, abs(cosine)) : 0.0;
     vec3 reach = abs(b.x * tri.e1) + abs(b.y * tri.e2);
     float error = pointError(normal, tri.p0, reach, point) + heightError(tri.e1, tri.e2, doubleArea, reach + abs(to));

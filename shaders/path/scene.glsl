@@ -104,8 +104,8 @@ vec4 sampleTexture(uint code, TriangleAttributes a) {
     return none ? vec4(1.0) : mix(top, bottom, f.y);
 }
 
-// Which attributes emittedRadiance takes.
-const uint kEmissionAttributes = kEmissiveTexture | kVertexColors;
+// Which attributes emittedRadiance takes, and the coverage beside it.
+const uint kEmissionAttributes = kEmissiveTexture | kVertexColors | (kHasTransparency ? kBaseColorTexture : 0u);
 
 // Radiance that a triangle's front (or a double-sided one's either side) emits at texture coordinates `a`.
 vec3 emittedRadiance(uint material, bool front, TriangleAttributes a) {

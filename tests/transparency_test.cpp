@@ -104,8 +104,9 @@ TEST_CASE("passing takes nothing of the bounces, however many surfaces are passe
     Scene scene;
     addWall(scene, reference::addMaterial(scene, reference::lambert(glm::vec3(0.0f), glm::vec3(1.0f))), 0.0f);
     const uint32_t thin = reference::addMaterial(scene, screen(0.03f));
-    for (int i = 1; i <= 40; ++i) addWall(scene, thin, 0.1f * float(i));
-    CHECK(agrees(render(scene, ahead(), 2048, 0).g, std::pow(0.97, 40.0), 0.005));
+    for (int i = 1; i <= 20; ++i) addWall(scene, thin, 0.1f * float(i));
+    // 2.6e5 paths of which 0.54 arrive: sigma 1.8e-3 of the mean.
+    CHECK(agrees(render(scene, ahead(), 1024, 0).g, std::pow(0.97, 20.0), 0.006));
 }
 
 TEST_CASE("shadows of screens and coloured sheets weaken light by what they let through") {

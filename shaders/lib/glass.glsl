@@ -66,6 +66,11 @@ struct GlassFresnel {
 // Square of the cosine behind a facet that is met at cosine c; below 0 beyond the critical angle.
 float refractedSquare(float c, float eta) { return 1.0 - max(1.0 - c * c, 0.0) / (eta * eta); }
 
+// Where the reflectance table is read for the Lambert lobe's mend at cosine mu, and that mend: in the thinner medium. A
+// surface that reflects all has no diffuse light to give.
+float thinCosine(Glass g, float mu) { return g.eta < 1.0 ? sqrt(max(refractedSquare(mu, g.eta), 0.0)) : mu; }
+float glassMend(Bsdf b, Glass g, float mu, vec3 abc) { return thinCosine(g, mu) > 0.0 ? diffuseMend(b, abc) : 0.0; }
+
 // Of a facet with cosines c to the viewer and, in the dense medium, `refracted` behind it, 0 = all is reflected.
 GlassFresnel glassFresnel(Bsdf b, Glass g, float c, float refracted) {
     float fc = schlickWeight(c);
@@ -161,7 +166,7 @@ BsdfValue evaluateLobes(Bsdf b, Glass g, GlassView view, vec3 v, vec3 l, float m
     return BsdfValue(f * lz, pdf);
 }
 
-// mend is the smaller of v's and l's (of l.z > 0), loss is 1 - E(l) on l's side.
+// mend is the smaller of v's and l's, loss is 1 - E(l) on l's side.
 BsdfValue evaluateGlass(Bsdf b, Glass g, GlassView view, vec3 v, vec3 l, float mend, float loss) {
     return evaluateLobes(b, g, view, v, l, mend, loss, 1.0);
 }

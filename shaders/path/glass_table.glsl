@@ -32,7 +32,7 @@ float glassMeanLoss(float alpha, float eta, bool isSheet) {
     return exp2(isSheet ? slices.x : mix(slices.x, slices.y, z - float(z0)));
 }
 
-// 1 - E towards l, on either side; abc is the reflectance table's at |l.z|.
+// 1 - E towards l, on either side; abc is the reflectance table's at thinCosine(|l.z|), which is |l.z| of sheets.
 float glassLossTowards(Glass g, float alpha, vec3 l, vec3 abc) {
     float eta = l.z > 0.0 ? g.eta : 1.0 / g.eta;
     return g.isSheet ? max(1.0 - abc.x - abc.y, 0.0) : glassLoss(abs(l.z), alpha, eta);

@@ -28,16 +28,18 @@ GlassCase loadCase(uint index) {
     c.glass = makeGlass(c0.rgb, c0.w, c3.y, c1.rgb, c1.w, c3.x, c3.z > 0.0);
     c.v = c2.xyz;
     c.roughness = c2.w;
-    vec3 abc = reflectanceAt(c.v.z, c.roughness);
-    c.mend = diffuseMend(c.bsdf, abc);
+    vec3 abc = reflectanceAt(thinCosine(c.glass, c.v.z), c.roughness);
+    c.mend = glassMend(c.bsdf, c.glass, c.v.z, abc);
     c.view = prepareGlass(c.bsdf, c.glass, c.v, abc, c.mend, glassLossesOf(c.glass, c.bsdf.alpha, c.v, abc));
     return c;
 }
 
 // mend and 1 - E towards l.
 vec2 towards(GlassCase c, vec3 l) {
-    vec3 abc = reflectanceAt(abs(l.z), c.roughness);
-    return vec2(min(c.mend, diffuseMend(c.bsdf, abc)), glassLossTowards(c.glass, c.bsdf.alpha, l, abc));
+    float mu = abs(l.z);
+    vec3 abc = reflectanceAt(thinCosine(c.glass, mu), c.roughness);
+    return vec2(min(c.mend, glassMend(c.bsdf, c.glass, mu, abc)),
+                glassLossTowards(c.glass, c.bsdf.alpha, l, abc));
 }
 
 BsdfValue evaluateCase(GlassCase c, vec3 l) {

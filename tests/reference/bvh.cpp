@@ -40,7 +40,7 @@ double entry(const Box& box, const Ray& ray, const Vec3& inverse, double limit) 
     return from <= to ? from : 1e308;
 }
 
-bool intersect(const TriangleShape& t, const Ray& ray, double limit, Hit& hit) {
+bool intersect(const TriangleShape& t, const Ray& ray, double from, double limit, Hit& hit) {
     const Vec3 p = glm::cross(ray.direction, t.e2);
     const double determinant = glm::dot(t.e1, p);
     if (determinant == 0.0) return false;
@@ -52,7 +52,7 @@ bool intersect(const TriangleShape& t, const Ray& ray, double limit, Hit& hit) {
     const double v = glm::dot(ray.direction, q) * inverse;
     if (!(v >= 0.0 && u + v <= 1.0)) return false;
     const double distance = glm::dot(t.e2, q) * inverse;
-    if (!(distance > 0.0 && distance < limit)) return false;
+    if (!(distance > from && distance < limit)) return false;
     hit.distance = distance, hit.u = u, hit.v = v;
     return true;
 }
@@ -141,7 +141,7 @@ void Bvh::build(uint32_t node, uint32_t first, uint32_t last, int depth, const s
 }
 
 template <bool kAny>
-std::optional<Hit> Bvh::traverse(const Ray& ray, double limit) const {
+std::optional<Hit> Bvh::traverse(const Ray& ray, double from, double limit) const {
     if (nodes_.empty()) return std::nullopt;
     const Vec3 inverse = reciprocal(ray.direction);
     struct Pending {
@@ -165,7 +165,7 @@ std::optional<Hit> Bvh::traverse(const Ray& ray, double limit) const {
                 continue;
             }
             for (uint32_t i = node.first; i < node.first + node.count; ++i)
-                if (intersect(ordered_[i], ray, limit, hit)) {
+                if (intersect(ordered_[i], ray, from, limit, hit)) {
                     hit.triangle = order_[i];
                     limit = hit.distance;
                     found = hit;
@@ -177,11 +177,11 @@ std::optional<Hit> Bvh::traverse(const Ray& ray, double limit) const {
     }
 }
 
-std::optional<Hit> Bvh::closest(const Ray& ray, double limit) const {
-    return traverse<false>(ray, limit);
+std::optional<Hit> Bvh::closest(const Ray& ray, double limit, double from) const {
+    return traverse<false>(ray, from, limit);
 }
 bool Bvh::isOccluded(const Ray& ray, double limit) const {
-    return traverse<true>(ray, limit).has_value();
+    return traverse<true>(ray, 0.0, limit).has_value();
 }
 
 } // namespace irradia::reference

@@ -40,8 +40,8 @@ class Bvh {
 public:
     explicit Bvh(std::vector<TriangleShape> triangles);
 
-    // The nearest hit with 0 < distance < limit, from either side.
-    std::optional<Hit> closest(const Ray& ray, double limit = 1e300) const;
+    // The nearest hit with from < distance < limit, from either side.
+    std::optional<Hit> closest(const Ray& ray, double limit = 1e300, double from = 0.0) const;
     bool isOccluded(const Ray& ray, double limit) const;
 
     const TriangleShape& shape(uint32_t triangle) const { return triangles_[triangle]; }
@@ -54,7 +54,7 @@ private:
     };
     void build(uint32_t node, uint32_t first, uint32_t last, int depth, const std::vector<Box>& boxes);
     template <bool kAny>
-    std::optional<Hit> traverse(const Ray& ray, double limit) const;
+    std::optional<Hit> traverse(const Ray& ray, double from, double limit) const;
 
     std::vector<TriangleShape> triangles_; // as given
     std::vector<uint32_t> order_;          // triangles by leaf

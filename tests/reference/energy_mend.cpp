@@ -1,5 +1,6 @@
 #include "tests/reference/energy_mend.h"
 #include "tests/reference/ggx.h"
+#include "tests/reference/lagrange.h"
 #include "tests/reference/parallel.h"
 #include <algorithm>
 #include <map>
@@ -70,20 +71,6 @@ private:
     Ggx ggx_;
     double mu_, sinV_;
     IntegralOrder order_;
-};
-
-// Cubic Lagrange interpolation at x (in units of the grid's step) of values on n nodes: first node and four
-// weights.
-struct Stencil {
-    int first;
-    std::array<double, 4> weight;
-
-    Stencil(double x, int n)
-        : first(std::clamp(static_cast<int>(x) - 1, 0, n - 4)) {
-        const double t = x - first;
-        weight = {(t - 1) * (t - 2) * (t - 3) / -6, t * (t - 2) * (t - 3) / 2, t * (t - 1) * (t - 3) / -2,
-                  t * (t - 1) * (t - 2) / 6};
-    }
 };
 
 const double kLogMinAlpha = std::log(1e-3); // the first row of the table
@@ -164,10 +151,7 @@ SpecularIntegrals EnergyTable::specular(double mu, double alpha) const {
 }
 
 double EnergyTable::diffuse(double mu) const {
-    const Stencil stencil(std::sqrt(mu) * (kDiffuse - 1), kDiffuse);
-    double result = 0.0;
-    for (int i = 0; i < 4; ++i) result += stencil.weight[i] * diffuse_[stencil.first + i];
-    return result;
+    return Stencil(std::sqrt(mu) * (kDiffuse - 1), kDiffuse)(diffuse_);
 }
 
 } // namespace irradia::reference

@@ -1,49 +1,12 @@
 #include "tests/reference/surface.h"
-#include "tests/reference/texture.h"
+#include "tests/reference/material_point.h"
+#include "tests/reference/passing.h"
 
 namespace irradia::reference {
 
 namespace {
 
 constexpr double kMinViewCosine = 0.01;
-
-// Vertex attributes at barycentric coordinates (1 - u - v, u, v).
-struct Interpolated {
-    Vec3 normal;
-    glm::dvec4 tangent;
-    Vec2 uv[2];
-};
-
-Interpolated interpolate(const Scene& scene, const Triangle& triangle, double u, double v) {
-    const Vertex& a = scene.vertices[triangle.vertex.x];
-    const Vertex& b = scene.vertices[triangle.vertex.y];
-    const Vertex& c = scene.vertices[triangle.vertex.z];
-    const auto blend = [&](const auto& x, const auto& y, const auto& z) {
-        return (1.0 - u - v) * x + u * y + v * z;
-    };
-    return {blend(Vec3(a.normal), Vec3(b.normal), Vec3(c.normal)),
-            blend(glm::dvec4(a.tangent), glm::dvec4(b.tangent), glm::dvec4(c.tangent)),
-            {blend(Vec2(a.uv[0]), Vec2(b.uv[0]), Vec2(c.uv[0])),
-             blend(Vec2(a.uv[1]), Vec2(b.uv[1]), Vec2(c.uv[1]))}};
-}
-
-glm::dvec4 lookUp(const Scene& scene, const TextureRef& texture, const Interpolated& at, Encoding encoding) {
-    return sampleTexture(scene, texture, at.uv[texture.uvSet], encoding);
-}
-
-BsdfParameters bsdfParameters(const Scene& scene, const Material& m, const Interpolated& at) {
-    const glm::dvec4 metallicRoughness = lookUp(scene, m.metallicRoughnessTexture, at, Encoding::Linear);
-    const double ratio = (static_cast<double>(m.ior) - 1.0) / (static_cast<double>(m.ior) + 1.0);
-    const Vec3 specularColor =
-        Vec3(m.specularColor) * Vec3(lookUp(scene, m.specularColorTexture, at, Encoding::Srgb));
-    BsdfParameters p;
-    p.baseColor = Vec3(m.baseColor) * Vec3(lookUp(scene, m.baseColorTexture, at, Encoding::Srgb));
-    p.roughness = static_cast<double>(m.roughness) * metallicRoughness.y;
-    p.metallic = static_cast<double>(m.metallic) * metallicRoughness.z;
-    p.f0 = glm::min(ratio * ratio * specularColor, Vec3(1.0));
-    p.specular = static_cast<double>(m.specular) * lookUp(scene, m.specularTexture, at, Encoding::Linear).w;
-    return p;
-}
 
 // Unit normal of the front side: the vertices' one, turned by the normal map where there is one and a
 // tangent.
@@ -60,16 +23,65 @@ Vec3 shadingNormal(const Scene& scene, const Material& m, const Interpolated& at
     return glm::normalize(scale * t.x * tangent + scale * t.y * bitangent + t.z * n);
 }
 
+// Indices whose ratio is nearer to 1 are taken as this much apart: there the refracted lobe becomes a point,
+// which a density cannot state.
+constexpr double kLeastStep = 1e-4;
+
+double indexRatio(const Scene& scene, const MediaBySide& media, bool front) {
+    const double eta = indexOf(scene, media.there.top) / indexOf(scene, media.here.top);
+    if (std::abs(eta - 1.0) >= kLeastStep) return eta;
+    return front ? 1.0 + kLeastStep : 1.0 / (1.0 + kLeastStep); // in and out again is 1
+}
+
+std::optional<Glass> glassAt(const Scene& scene, const Material& m, const Interpolated& at,
+                             BsdfParameters surface, const MediaBySide& media, bool front) {
+    if (m.transmission == 0.0f) return std::nullopt;
+    GlassParameters glass;
+    glass.transmission = transmissionAt(scene, m, at);
+    if (isSolid(m)) {
+        glass.kind = GlassParameters::Kind::Solid;
+        glass.eta = indexRatio(scene, media, front);
+        surface.f0 = f0Between(surface.f0, m.ior, glass.eta);
+    } else {
+        using Kind = GlassParameters::Kind;
+        glass.kind = isClearSheet(m) ? Kind::ClearSheet : Kind::RoughSheet;
+    }
+    return Glass(surface, glass);
+}
+
 } // namespace
 
+bool SurfacePoint::isValid(const Vec3& direction) const {
+    return glm::dot(geometricNormal, direction) * glm::dot(shading.normal, direction) > 0.0;
+}
+
 Vec3 SurfacePoint::scattered(const Vec3& direction) const {
-    if (glm::dot(geometricNormal, direction) <= 0.0) return Vec3(0.0);
+    if (!isValid(direction)) return Vec3(0.0);
     const Vec3 l = shading.toLocal(direction);
-    return bsdf.evaluate(view, l) * std::fmax(l.z, 0.0);
+    return std::abs(l.z) * (glass ? glass->evaluate(view, l) : bsdf.evaluate(view, l));
+}
+
+Vec3 SurfacePoint::scatteredPunctual(const Vec3& direction) const {
+    if (alpha() > kMinAlpha) return scattered(direction);
+    if (!isValid(direction)) return Vec3(0.0);
+    const Vec3 l = shading.toLocal(direction);
+    return std::abs(l.z) *
+           (glass ? glass->evaluate(view, l, GlassLobes::Lambert) : bsdf.evaluate(view, l, Lobes::Diffuse));
 }
 
 double SurfacePoint::pdf(const Vec3& direction) const {
-    return bsdf.pdf(view, shading.toLocal(direction));
+    const Vec3 l = shading.toLocal(direction);
+    return glass ? glass->pdf(view, l) : bsdf.pdf(view, l);
+}
+
+BsdfSample SurfacePoint::sample(double uLobe, const Vec2& u) const {
+    BsdfSample sample = glass ? glass->sample(view, uLobe, u) : bsdf.sample(view, uLobe, u);
+    sample.direction = shading.toWorld(sample.direction);
+    return sample;
+}
+
+double SurfacePoint::etendue(const Vec3& direction) const {
+    return glass ? glass->etendue(shading.toLocal(direction)) : 1.0;
 }
 
 std::vector<TriangleShape> triangleShapes(const Scene& scene) {
@@ -82,10 +94,11 @@ std::vector<TriangleShape> triangleShapes(const Scene& scene) {
     return shapes;
 }
 
-SurfacePoint surfaceAt(const Scene& scene, const TriangleShape& shape, const Ray& ray, const Hit& hit) {
+SurfacePoint surfaceAt(const Scene& scene, const TriangleShape& shape, const Ray& ray, const Hit& hit,
+                       const Media& media) {
     const Triangle& triangle = scene.triangles[hit.triangle];
     const Material& material = scene.materials[triangle.material];
-    const Interpolated at = interpolate(scene, triangle, hit.u, hit.v);
+    const Interpolated at = interpolate(scene, triangle, {hit.u, hit.v});
     const Vec3 toViewer = -ray.direction;
 
     Vec3 geometric = glm::normalize(glm::cross(shape.e1, shape.e2));
@@ -96,21 +109,29 @@ SurfacePoint surfaceAt(const Scene& scene, const TriangleShape& shape, const Ray
 
     const Frame frame(normal);
     const double extent = maxComponent(glm::abs(shape.p0) + glm::abs(shape.e1) + glm::abs(shape.e2));
+    const bool front = isFront(shape, ray);
+    const MediaBySide sides = mediaAt(scene, triangle.material, front, media);
+    const BsdfParameters parameters = bsdfParameters(scene, material, at);
     return {shape.p0 + hit.u * shape.e1 + hit.v * shape.e2,
             geometric,
             0x1p-44 * extent, // 512 roundings: slivers err more than others
             frame,
             frame.toLocal(toViewer),
-            Bsdf(bsdfParameters(scene, material, at))};
+            Bsdf(parameters),
+            glassAt(scene, material, at, parameters, sides, front),
+            sides};
+}
+
+bool isFront(const TriangleShape& shape, const Ray& ray) {
+    return glm::dot(glm::cross(shape.e1, shape.e2), ray.direction) < 0.0;
 }
 
 Vec3 emittedRadiance(const Scene& scene, uint32_t triangle, const Vec2& uv, bool front) {
     const Material& material = scene.materials[scene.triangles[triangle].material];
     if (!front && !material.doubleSided) return Vec3(0.0);
-    if (material.emissiveTexture.image < 0 || material.emission == glm::vec3(0.0f))
-        return Vec3(material.emission);
-    const Interpolated at = interpolate(scene, scene.triangles[triangle], uv.x, uv.y);
-    return Vec3(material.emission) * Vec3(lookUp(scene, material.emissiveTexture, at, Encoding::Srgb));
+    if (material.emission == glm::vec3(0.0f)) return Vec3(0.0);
+    const Interpolated at = interpolate(scene, scene.triangles[triangle], uv);
+    return coverageAt(scene, material, at) * emissionAt(scene, material, at);
 }
 
 } // namespace irradia::reference

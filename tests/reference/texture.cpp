@@ -47,7 +47,8 @@ int wrapped(int64_t index, int size, Wrap wrap) {
 glm::dvec4 sampleTexture(const Scene& scene, const TextureRef& texture, const Vec2& uv, Encoding encoding) {
     if (texture.image < 0) return glm::dvec4(1.0);
     const TextureImage& image = scene.images[texture.image];
-    const double x = uv.x * image.width - 0.5, y = uv.y * image.height - 0.5;
+    const Vec2 at = glm::dmat3x2(texture.transform) * Vec3(uv, 1.0);
+    const double x = at.x * image.width - 0.5, y = at.y * image.height - 0.5;
     const double x0 = std::floor(x), y0 = std::floor(y), fx = x - x0, fy = y - y0;
     glm::dvec4 sum(0.0);
     for (int dy = 0; dy < 2; ++dy)

@@ -9,8 +9,8 @@ namespace irradia::reference {
 
 enum class Encoding { Linear, Srgb };
 
-// RGBA in [0, 1] at (u, v), v downwards; alpha is never sRGB. (1, 1, 1, 1) where the reference names no
-// picture.
+// RGBA in [0, 1] at (u, v), v downwards, before the reference's transform; alpha is never sRGB. (1, 1, 1, 1)
+// where the reference names no picture.
 glm::dvec4 sampleTexture(const Scene& scene, const TextureRef& texture, const Vec2& uv, Encoding encoding);
 
 // Mean colour of the whole picture; 1 where there is none.

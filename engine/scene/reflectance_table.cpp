@@ -109,11 +109,12 @@ double integrateDiffuse(double mu) {
     return sum;
 }
 
-// The cosine of a column in [0, 1], by bisection.
-double cosineOf(double column, double alpha) {
+} // namespace
+
+double reflectanceCosine(double column, double alpha) {
     const double a = gpu::kTableAlphaScale * alpha;
     double lower = 0.0, upper = 1.0;
-    for (int i = 0; i < 50; ++i) {
+    for (int i = 0; i < 50; ++i) { // bisection
         const double mu = 0.5 * (lower + upper);
         const double x = (2.0 * std::sqrt(mu) + std::sqrt(mu * (1.0 + a) / (mu + a))) / 3.0;
         (x < column ? lower : upper) = mu;
@@ -121,18 +122,19 @@ double cosineOf(double column, double alpha) {
     return upper;
 }
 
-} // namespace
+double reflectanceAlpha(double row) {
+    const double root = gpu::kTableFirstRoot + row * (1.0 - gpu::kTableFirstRoot);
+    return std::max(std::pow(root, 4.0), double(gpu::kMinAlpha));
+}
 
 std::vector<glm::vec4> buildReflectanceTable() {
     std::vector<glm::vec4> table;
     table.reserve(gpu::kTableCosines * gpu::kTableRoughnesses);
     for (uint32_t j = 0; j < gpu::kTableRoughnesses; ++j) {
-        const double row = double(j) / (gpu::kTableRoughnesses - 1);
-        const double root = gpu::kTableFirstRoot + row * (1.0 - gpu::kTableFirstRoot);
-        const double alpha = std::max(std::pow(root, 4.0), double(gpu::kMinAlpha));
+        const double alpha = reflectanceAlpha(double(j) / (gpu::kTableRoughnesses - 1));
         for (uint32_t i = 0; i < gpu::kTableCosines; ++i) {
             // At mu = 0 nothing is left of the lobe but its limit.
-            const double mu = std::max(cosineOf(double(i) / (gpu::kTableCosines - 1), alpha), 1e-6);
+            const double mu = std::max(reflectanceCosine(double(i) / (gpu::kTableCosines - 1), alpha), 1e-6);
             const glm::dvec2 specular = SpecularIntegral(mu, alpha).evaluate();
             table.emplace_back(specular.x, specular.y, integrateDiffuse(mu), 0.0);
         }

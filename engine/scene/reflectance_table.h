@@ -13,4 +13,8 @@ namespace irradia {
 // Records (A, B, C, 0) as floats in the order of shaders/shared/scene.h's reflectance table.
 std::vector<glm::vec4> buildReflectanceTable();
 
+// The cosine of a column and the alpha of a row, both in [0, 1].
+double reflectanceCosine(double column, double alpha);
+double reflectanceAlpha(double row);
+
 } // namespace irradia

@@ -1,15 +1,10 @@
 // A material and a view direction, the input of the BSDF's harness kernels, and what a path's vertex computes from
 // them before it evaluates or samples. Bindings: `cases` (3 records each) and `reflectanceTable` (records).
 //   0: base colour rgb, metallic;  1: dielectric f0 rgb, specular factor;  2: view xyz (local), roughness
+#include "faults.glsl"
 #include "lib/bsdf.glsl"
 #include "lib/rng.glsl"
 #include "path/reflectance.glsl"
-
-// Planted faults: 1 leaves the code as it is.
-layout(constant_id = 40) const float kRadianceFault = 1.0; // factor of f
-layout(constant_id = 41) const float kPdfFault = 1.0;      // factor of the density
-layout(constant_id = 42) const float kAlphaFault = 1.0;    // factor of alpha, in sampling alone
-layout(constant_id = 43) const float kLobeFault = 1.0;     // factor of the GGX lobe's probability, in sampling alone
 
 struct BsdfCase {
     Bsdf bsdf;

@@ -10,7 +10,8 @@ KernelOptions fittedTo(const SceneNeeds& needs, const PathTracerOptions& options
                         {gpu::kConstantSpecular, needs.specular},
                         {gpu::kConstantView, options.view},
                         {gpu::kConstantLightTree, needs.lightTree},
-                        {gpu::kConstantSampler, options.sampler}};
+                        {gpu::kConstantSampler, options.sampler},
+                        {gpu::kConstantPunctual, needs.punctual}};
     return fitted;
 }
 

@@ -80,8 +80,8 @@ TEST_CASE("a lamp that is off has a record without probability") {
         if (!isOn) CHECK(std::bit_cast<float>(packed.lights[i].x) == 0.0f);
         CHECK(packed.lights[i].y >= 2); // whoever draws one that is off gets one that is on
     }
-    CHECK(packed.environmentProbability == 0.0f);
-    CHECK(packScene(skyAlone(), allStates()).environmentProbability == 1.0f);
+    CHECK(packed.lightShares.environment == 0.0f);
+    CHECK(packScene(skyAlone(), allStates()).lightShares.environment == 1.0f);
     CHECK(packScene(twoLamps(), allStates()).needs.environment);
 }
 

@@ -17,7 +17,9 @@ gpu::CameraConstants cameraConstants(const Camera& camera, float aspect) {
 FrameUniforms frameUniforms(const GpuScene& scene, const PathTracerOptions& options, const Camera& camera) {
     const float aspect = static_cast<float>(options.width) / static_cast<float>(options.height);
     return {{options.seed, options.width, options.height, scene.triangles, scene.lightCount,
-             scene.environmentWidth, scene.environmentHeight, scene.environmentProbability},
+             scene.environmentWidth, scene.environmentHeight, scene.lightShares.environment,
+             scene.lightShares.directional, scene.lightShares.local, scene.directionalCount,
+             scene.firstPunctual},
             cameraConstants(camera, aspect)};
 }
 

@@ -12,7 +12,8 @@ KernelOptions fittedTo(const SceneNeeds& needs, const PathTracerOptions& options
                         {gpu::kConstantLightTree, needs.lightTree},
                         {gpu::kConstantSampler, options.sampler},
                         {gpu::kConstantTransparency, needs.transparency},
-                        {gpu::kConstantGlass, needs.glass}};
+                        {gpu::kConstantGlass, needs.glass},
+                        {gpu::kConstantPunctual, needs.punctual}};
     return fitted;
 }
 

@@ -38,7 +38,9 @@ GpuScene uploadScene(Device& device, const PackedScene& packed, const Bvh& bvh) 
     scene.lightCount = packed.lightCount;
     scene.environmentWidth = std::max(packed.environmentWidth, 1u);
     scene.environmentHeight = std::max(packed.environmentHeight, 1u);
-    scene.environmentProbability = packed.environmentProbability;
+    scene.directionalCount = packed.directionalCount;
+    scene.firstPunctual = packed.firstPunctual;
+    scene.lightShares = packed.lightShares;
     scene.states = packed.states;
     return scene;
 }
@@ -68,8 +70,8 @@ void updateScene(Device& device, const Scene& state, GpuScene& scene) {
     requirePlanned(state, scene);
     if (!state.materials.empty()) updateMaterials(device, state, scene);
     const PackedLights lights = packLights(state, scene.states.emitters);
-    if (lights.count > 0) upload<glm::uvec4>(device, scene.lights, lights.quads);
-    scene.environmentProbability = environmentProbability(state, scene.needs);
+    if (!lights.quads.empty()) upload<glm::uvec4>(device, scene.lights, lights.quads);
+    scene.lightShares = lightShares(state, scene.needs);
     if (!scene.needs.environment) return;
     PackedScene packed;
     packEnvironment(state.environment, packed);

@@ -23,12 +23,14 @@ struct GpuScene {
     SceneNeeds needs;
     glm::dvec3 origin{0.0}; // Scene::origin
     uint32_t triangles = 0;
-    uint32_t bvhRoot = 0; // its item (shared/bvh.h)
-    uint32_t lightCount = 0;
+    uint32_t bvhRoot = 0;    // its item (shared/bvh.h)
+    uint32_t lightCount = 0; // local ones
+    uint32_t directionalCount = 0;
+    uint32_t firstPunctual = 0; // quad of the lights
+    LightShares lightShares;
     uint32_t environmentWidth = 1;
     uint32_t environmentHeight = 1;
-    float environmentProbability = 0.0f; // of a light sample going to the environment
-    PlannedStates states;                // that updateScene may bring it to
+    PlannedStates states; // that updateScene may bring it to
 };
 
 // The bytes uploadScene will allocate, for Device::plan.
@@ -37,9 +39,9 @@ std::vector<Device::PlannedBuffer> plannedBuffers(const PackedScene& packed, con
 GpuScene uploadScene(Device& device, const PackedScene& packed, const Bvh& bvh);
 
 // Brings a scene on the device to another state of its materials' values (colours, roughness, emission; not
-// their textures) and of its environment: lights get their new powers, the needs stay. Between graph
-// executions. Geometry, textures and the materials' number are those that were uploaded. Throws
-// Error(Internal) where the state is not among those planned for packScene.
+// their textures) and of its environment: lights get their new powers, the needs stay, and so do lights
+// without extent. Between graph executions. Geometry, textures and the materials' number are those that were
+// uploaded. Throws Error(Internal) where the state is not among those planned for packScene.
 void updateScene(Device& device, const Scene& state, GpuScene& scene);
 
 } // namespace irradia

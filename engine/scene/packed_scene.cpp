@@ -2,6 +2,7 @@
 
 #include "engine/error.h"
 #include "engine/scene/lights/packed_lights.h"
+#include "engine/scene/lights/punctual_lights.h"
 #include "engine/scene/texture_packing.h"
 #include <algorithm>
 #include <bit>
@@ -174,7 +175,10 @@ PackedScene packScene(const Scene& scene, const PlannedStates& states) {
     PackedLights lights = packLights(scene, out.states.emitters);
     out.lights = std::move(lights.quads);
     out.lightCount = lights.count;
-    out.needs.emitters = lights.count > 0;
+    out.directionalCount = lights.directional;
+    out.firstPunctual = lights.firstPunctual;
+    out.needs.emitters = lights.emitters > 0;
+    out.needs.punctual = punctualKinds(scene);
     out.needs.lightTree = lights.count >= kLightTreeFrom;
     packMaterials(scene, out);
     packGeometry(scene, lights.lightOf, out);
@@ -184,12 +188,12 @@ PackedScene packScene(const Scene& scene, const PlannedStates& states) {
         std::ranges::any_of(scene.triangles, [&](const Triangle& t) { return mayLetThrough(scene, t); });
     out.needs.environment = out.states.environment;
     if (out.needs.environment) packEnvironment(scene.environment, out);
-    out.environmentProbability = environmentProbability(scene, out.needs);
-    if (!out.needs.environment && !out.needs.emitters)
+    out.lightShares = lightShares(scene, out.needs);
+    if (!out.needs.environment && !out.needs.emitters && out.needs.punctual == 0)
         out.warnings.push_back("the scene has no light: nothing in it emits, and no environment is given");
     requireBinding(out.geometry, "geometry");
     requireBinding(out.attributes, "texture coordinates");
-    requireBinding(out.lights, "emissive triangles");
+    requireBinding(out.lights, "lights");
     requireBinding(out.environment, "environment");
     return out;
 }

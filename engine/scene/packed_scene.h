@@ -13,7 +13,8 @@ namespace irradia {
 struct SceneNeeds {
     bool environment = false; // light from outside
     bool emitters = false;    // emissive triangles
-    bool lightTree = false;   // so many that a hierarchy chooses among them
+    uint32_t punctual = 0;    // mask of gpu::kPunctualLocal, ...
+    bool lightTree = false;   // so many local lights that a hierarchy chooses among them
     uint32_t textures = 0;    // mask of gpu::kBaseColorTexture, ..., and of vertex attributes
     bool specular = false;
     bool transparency = false; // some surface lets light straight on through, or has an inside
@@ -35,6 +36,12 @@ struct PlannedStates {
     void include(const Scene& state);
 };
 
+// Of light samples, by group: what goes to the environment, to directional lights, and to local ones
+// (emissive triangles, points and spots).
+struct LightShares {
+    float environment = 0.0f, directional = 0.0f, local = 0.0f;
+};
+
 struct PackedScene {
     std::vector<glm::uvec4> geometry;
     std::vector<glm::uvec4> attributes; // empty in scenes without textures
@@ -45,14 +52,16 @@ struct PackedScene {
     std::vector<glm::uvec4> environment;
     std::vector<glm::uvec4> environmentAlias;
     std::vector<glm::uvec4> areaTable; // empty unless packAreaTable has added it
-    uint32_t lightCount = 0;           // the first of `lights`; a hierarchy's nodes follow them
+    uint32_t lightCount = 0;           // local lights, the first of `lights`; a hierarchy's nodes follow them
+    uint32_t directionalCount = 0;
+    uint32_t firstPunctual = 0; // quad of `lights`
+    LightShares lightShares;
     uint32_t environmentWidth = 0;
     uint32_t environmentHeight = 0;
     SceneNeeds needs;
-    glm::dvec3 origin{0.0};              // the scene's
-    float environmentProbability = 0.0f; // of a light sample going to the environment
-    PlannedStates states;                // this one among them
-    std::vector<std::string> warnings;   // pictures that were made smaller to fit, and what will surprise
+    glm::dvec3 origin{0.0};            // the scene's
+    PlannedStates states;              // this one among them
+    std::vector<std::string> warnings; // pictures that were made smaller to fit, and what will surprise
 };
 
 // Most bytes one binding may hold (lavapipe's limit on storage buffers).

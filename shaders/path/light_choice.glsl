@@ -1,4 +1,4 @@
-// Who is lit, and by which of the emissive triangles.
+// Who is lit, and by which of the local lights.
 #ifndef IRRADIA_PATH_LIGHT_CHOICE_GLSL
 #define IRRADIA_PATH_LIGHT_CHOICE_GLSL
 

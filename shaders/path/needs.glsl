@@ -2,6 +2,7 @@
 #ifndef IRRADIA_PATH_NEEDS_GLSL
 #define IRRADIA_PATH_NEEDS_GLSL
 #include "shared/path.h"
+#include "shared/scene.h"
 
 layout(constant_id = kConstantEnvironment) const bool kHasEnvironment = true;
 layout(constant_id = kConstantEmitters) const bool kHasEmitters = true;
@@ -12,5 +13,12 @@ layout(constant_id = kConstantLightTree) const bool kHasLightTree = false;
 layout(constant_id = kConstantSampler) const uint kSampler = kSamplerRandom;
 layout(constant_id = kConstantTransparency) const bool kHasTransparency = false;
 layout(constant_id = kConstantGlass) const bool kHasGlass = false;
+layout(constant_id = kConstantPunctual) const uint kPunctualMask = kPunctualLocal | kPunctualDirectional;
+
+// Groups of lights: the environment, directional lights, and local ones, which are emissive triangles, points and spots.
+const bool kHasPoints = (kPunctualMask & kPunctualLocal) != 0u;
+const bool kHasDirectional = (kPunctualMask & kPunctualDirectional) != 0u;
+const bool kHasLocal = kHasEmitters || kHasPoints;
+const int kLightGroups = int(kHasEnvironment) + int(kHasDirectional) + int(kHasLocal);
 
 #endif

@@ -85,21 +85,23 @@ void main() {
     float pSpecular = kHasSpecular ? specularProbability(s.bsdf, abcView, mendView) : 0.0;
 
     uint normalCode = encodeOctahedral(s.shadingNormal); // as a ray's emissive hit will find it
-    if (kHasEmitters || kHasEnvironment) {
+    if (kLightGroups > 0) {
         uvec4 random = lightBits(pixel, sampleIndex, params.depth, frame.seed);
-        float choice = kHasEmitters && kHasEnvironment
+        float choice = kLightGroups > 1
                            ? unitFloat(lightChoiceBits(random, pixel, sampleIndex, params.depth, frame.seed))
                            : 0.0;
         LightSample light = sampleLight(Receiver(origin, decodeOctahedral(normalCode)), random, choice);
         vec3 l = toLocal(local, light.direction);
         float mend = min(mendView, diffuseMend(s.bsdf, reflectanceAt(l.z, s.roughness)));
-        BsdfValue value = evaluateBsdf(s.bsdf, v, l, mend, pSpecular, kHasSpecular);
+        Bsdf lit = s.bsdf;
+        if (light.isPunctual) lit = bsdfUnderPunctual(lit);
+        BsdfValue value = evaluateBsdf(lit, v, l, mend, pSpecular, kHasSpecular);
         bool reflects = l.z > 0.0 && dot(s.geometricNormal, light.direction) > 0.0 && light.pdf > 0.0;
         vec3 contribution =
-            reflects ? beta * value.fCos * light.radiance * (powerHeuristic(light.pdf, value.pdf) / light.pdf) : vec3(0.0);
+            reflects ? beta * value.fCos * light.radiance * lightWeight(light, value.pdf) : vec3(0.0);
         bool counts = maxComponent(contribution) > 0.0;
         if (visit.listens && reflects)
-            directLight = value.fCos * light.radiance * (powerHeuristic(light.pdf, value.pdf) / light.pdf);
+            directLight = value.fCos * light.radiance * lightWeight(light, value.pdf);
         counts = counts || maxComponent(directLight) > 0.0;
         pushShadowRay(alive && counts, origin, light.tMax, light.direction, path, contribution);
     }

@@ -11,10 +11,11 @@ SHARED_CONST uint kConstantEmitters = 11u;    // there are emissive triangles
 SHARED_CONST uint kConstantTextures = 12u;    // mask of kBaseColorTexture, ...
 SHARED_CONST uint kConstantSpecular = 13u;    // some material has a specular lobe
 SHARED_CONST uint kConstantView = 14u;        // what is shown: kViewPicture, ...
-SHARED_CONST uint kConstantLightTree = 15u;   // there are enough emissive triangles for a hierarchy
+SHARED_CONST uint kConstantLightTree = 15u;   // there are enough local lights for a hierarchy
 SHARED_CONST uint kConstantSampler = 16u;     // where a path's numbers come from: kSamplerRandom, ... (path/sampler.glsl)
 SHARED_CONST uint kConstantTransparency = 17u; // some surface lets light straight on through, or has an inside
 SHARED_CONST uint kConstantGlass = 18u;        // some surface has lobes beyond it
+SHARED_CONST uint kConstantPunctual = 19u;    // lights without extent: mask of kPunctualLocal, ...
 
 // Learning: a slice of an encoding (learning/encode.glsl).
 SHARED_CONST uint kConstantSliceInputQuads = 20u; // of a row of inputs

@@ -39,10 +39,14 @@ struct FrameConstants {
     uint width; // of the picture
     uint height;
     uint triangles; // of the scene
-    uint lightCount;
+    uint lightCount;       // local ones: emissive triangles, points, spots
     uint environmentWidth; // 1 x 1 for a constant
     uint environmentHeight;
-    float environmentProbability; // of sampling the environment rather than the emissive triangles
+    float environmentShare; // of light samples; 0 where it is black
+    float directionalShare;
+    float localShare;
+    uint directionalCount; // of directional lights
+    uint firstPunctual;    // quad of the lights
 };
 
 struct CameraConstants {

@@ -43,16 +43,31 @@ SHARED_CONST uint kNoTexture = 0xffffffffu;
 // A transform is the quad where it stands, behind all textures (0 = none), 2 quads: the columns of uv' = M uv + offset, and
 // the offset. Texels are four 16-bit floats, linear.
 
-// Emissive triangle, 1 quad: trail, unused, primitive, unused. A trail leads from the root of the hierarchy of lights to
-// the triangle's leaf: bit d = the second child is taken at depth d. Scenes of few lights have no hierarchy, but an alias
-// table over power (Vose 1991):
-//   keep probability (float), alias (light index), primitive, probability mass of this light (float)
+// Local light, an emissive triangle or one without extent, 1 quad: trail, unused, primitive or kPunctual | punctual light,
+// unused. A trail leads from the root of the hierarchy of lights to the light's leaf: bit d = the second child is taken at
+// depth d. Scenes of few lights have no hierarchy, but an alias table over power (Vose 1991):
+//   keep probability (float), alias (light index), as above, probability mass of this light (float)
 // Node of that hierarchy, from quad lightCount on, the root first (engine/scene/lights/light_tree):
-//   0: centre and radius of a sphere around its triangles
-//   1: axis (octahedral) and cosine of a cone that holds their normals, power (share of all), first of two children or
-//      kLightLeaf | light index
+//   0: centre and radius of a sphere around its lights
+//   1: axis (octahedral) and spread of a cone that holds the normals they emit along, power (share of all), first of two
+//      children or kLightLeaf | light index
+// The spread is a cosine. Where there are points or spots it shares its bits with how far light reaches beyond the cone,
+// which else is a right angle: sines of half of the angles (two 16-bit unorms, rounded up; packUnorm2x16).
 SHARED_CONST uint kLightNodeQuads = 2u;
 SHARED_CONST uint kLightLeaf = 0x80000000u;
+SHARED_CONST uint kPunctual = 0x80000000u;
+
+// Punctual light, from quad firstPunctual of the lights on, the directional ones first:
+//   0: position, 1 / range (0 = none)
+//   1: intensity rgb, 1 / (cos inner - cos outer)
+//   2: direction it shines along, cos outer (of points such that they are within)
+// A directional one is an entry of an alias table over luminance:
+//   0: direction it comes from, keep probability   1: irradiance rgb, probability mass   2: alias, unused
+SHARED_CONST uint kPunctualQuads = 3u;
+// Which kinds there are (specialisation constant kPunctualMask).
+SHARED_CONST uint kPunctualLocal = 1u; // points and spots
+SHARED_CONST uint kPunctualDirectional = 2u;
+
 // Environment texel, 1 quad: radiance rgb, density = probability mass * texel count (float).
 // Environment alias table, 1 quad per texel: keep probability (float), alias, unused.
 // Area table, 1 quad per triangle, an entry of the alias table over area: keep probability (float), alias, unused.

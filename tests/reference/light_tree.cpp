@@ -17,15 +17,16 @@ double angleBetween(const Vec3& a, const Vec3& b) {
 }
 
 // Importance of the lights of a node: power / d^2 cos(theta') cos(theta_i'), theta' = max(theta - theta_o -
-// theta_u, 0), theta_i' = max(theta_i - theta_u, 0), emission over a hemisphere. Within the sphere every
-// direction is possible, and the distance its radius.
+// theta_u, 0), theta_i' = max(theta_i - theta_u, 0); none where theta' is more than theta_e. Within the
+// sphere every direction is possible, and the distance its radius.
 double importance(const LightNode& node, const Receiver& receiver) {
     const Vec3 v = receiver.point - node.center;
     const double distance = glm::length(v);
     if (distance <= node.radius) return node.power / (node.radius * node.radius);
     const double uncertain = std::asin(node.radius / distance);
-    return node.power / (distance * distance) *
-           cosine(angleBetween(node.axis, v / distance) - node.spread - uncertain) *
+    const double emitted = angleBetween(node.axis, v / distance) - node.spread - uncertain;
+    if (emitted > node.reach) return 0.0;
+    return node.power / (distance * distance) * cosine(emitted) *
            cosine(angleBetween(receiver.normal, -v / distance) - uncertain);
 }
 

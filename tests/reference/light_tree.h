@@ -10,8 +10,9 @@ namespace irradia::reference {
 struct LightNode {
     Vec3 center{0.0}; // of a sphere around its lights
     double radius = 0.0;
-    Vec3 axis{0, 0, 1};  // of a cone that holds the directions they emit along
-    double spread = 0.0; // its half angle
+    Vec3 axis{0, 0, 1};       // of a cone that holds the directions they emit along
+    double spread = 0.0;      // its half angle, the paper's theta_o
+    double reach = kPi / 2.0; // and how far they emit beyond it, its theta_e
     double power = 0.0;
     uint32_t child = 0; // the first of two neighbours; of a leaf, its light
     bool isLeaf = false;

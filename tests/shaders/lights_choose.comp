@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #pragma folders path/light_samplers/power_or_tree
-// Choices of an emissive triangle by the hierarchy of lights at one point.
+// Choices of a local light by the hierarchy of lights at one point.
 #include "lib/kernel.glsl"
 #include "shared/path.h"
 #include "harness.h"

@@ -9,6 +9,7 @@ std::vector<Specialisation> fitted(const SceneNeeds& needs, std::vector<Speciali
     faults.push_back({gpu::kConstantEmitters, needs.emitters});
     faults.push_back({gpu::kConstantTextures, needs.textures});
     faults.push_back({gpu::kConstantLightTree, needs.lightTree});
+    faults.push_back({gpu::kConstantPunctual, needs.punctual});
     return faults;
 }
 
@@ -30,7 +31,11 @@ std::vector<glm::uvec4> LightHarness::run(const gpu::LightHarnessParams& harness
     push.frame.lightCount = scene_.lightCount;
     push.frame.environmentWidth = scene_.environmentWidth;
     push.frame.environmentHeight = scene_.environmentHeight;
-    push.frame.environmentProbability = scene_.environmentProbability;
+    push.frame.environmentShare = scene_.lightShares.environment;
+    push.frame.directionalShare = scene_.lightShares.directional;
+    push.frame.localShare = scene_.lightShares.local;
+    push.frame.directionalCount = scene_.directionalCount;
+    push.frame.firstPunctual = scene_.firstPunctual;
     push.harness = harness;
     std::vector<BufferRange> inputs{scene_.geometry,    scene_.attributes,      scene_.materials,
                                     scene_.textures,    scene_.texels,          scene_.lights,

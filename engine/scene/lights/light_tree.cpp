@@ -29,13 +29,21 @@ struct Box {
 };
 
 // Integral over directions of the cosine to the nearest of a cone's normals: the paper's orientation
-// measure, emission over a hemisphere.
-double coneMeasure(double spread) {
-    const double reach = std::min(spread + 0.5 * std::numbers::pi, std::numbers::pi);
+// measure.
+double coneMeasure(const EmissionCone& cone) {
+    const double spread = cone.spread, end = std::min(spread + cone.reach, std::numbers::pi);
     return 2.0 * std::numbers::pi * (1.0 - std::cos(spread)) +
            0.5 * std::numbers::pi *
-               (2.0 * reach * std::sin(spread) - std::cos(spread - 2.0 * reach) -
+               (2.0 * end * std::sin(spread) - std::cos(spread - 2.0 * end) -
                 2.0 * spread * std::sin(spread) + std::cos(spread));
+}
+
+EmissionCone coneOf(const TreeLight& light) {
+    if (light.cone) return *light.cone;
+    const auto& [a, b, c] = light.corners;
+    const dvec3 normal = glm::cross(b - a, c - a);
+    const double length = glm::length(normal);
+    return {length > 0.0 ? normal / length : dvec3(0.0), light.isTwoSided ? std::numbers::pi : 0.0};
 }
 
 class Builder {
@@ -44,9 +52,7 @@ public:
         : lights_(lights) {
         for (const TreeLight& light : lights) {
             const auto& [a, b, c] = light.corners;
-            const dvec3 normal = glm::cross(b - a, c - a);
-            const double length = glm::length(normal);
-            normals_.push_back(length > 0.0 ? normal / length : dvec3(0.0));
+            cones_.push_back(coneOf(light));
             centroids_.push_back((a + b + c) / 3.0);
         }
         tree_.trails.resize(lights.size());
@@ -89,8 +95,7 @@ private:
             for (const dvec3& p : lights_[i].corners)
                 node.radius = std::max(node.radius, glm::distance(p, node.center));
         }
-        node.axis = coneAxis(part);
-        node.spread = coneSpread(part, node.axis);
+        node.cone = coneAround(part);
         return node;
     }
 
@@ -101,20 +106,32 @@ private:
         return box;
     }
 
+    EmissionCone coneAround(Range part) const {
+        EmissionCone cone{coneAxis(part), 0.0, 0.0};
+        cone.spread = coneSpread(part, cone.axis);
+        for (const uint32_t i : part) cone.reach = std::max(cone.reach, cones_[i].reach);
+        return cone;
+    }
+
     dvec3 coneAxis(Range part) const {
         dvec3 sum(0.0);
-        for (const uint32_t i : part) sum += normals_[i];
+        for (const uint32_t i : part) sum += cones_[i].axis;
         const double length = glm::length(sum);
         return length > 1e-6 ? sum / length : dvec3(0, 0, 1);
     }
 
     double coneSpread(Range part, const dvec3& axis) const {
-        double lowest = 1.0;
+        double lowest = 1.0, widest = 0.0;
         for (const uint32_t i : part) {
-            if (lights_[i].isTwoSided) return std::numbers::pi;
-            lowest = std::min(lowest, glm::dot(axis, normals_[i]));
+            const EmissionCone& cone = cones_[i];
+            if (cone.spread >= std::numbers::pi) return std::numbers::pi;
+            const double cosine = std::clamp(glm::dot(axis, cone.axis), -1.0, 1.0);
+            if (cone.spread > 0.0)
+                widest = std::max(widest, std::acos(cosine) + cone.spread);
+            else
+                lowest = std::min(lowest, cosine);
         }
-        return std::min(std::acos(std::clamp(lowest, -1.0, 1.0)) + kConeMargin, std::numbers::pi);
+        return std::min(std::max(widest, std::acos(lowest)) + kConeMargin, std::numbers::pi);
     }
 
     // Reorders the part; returns the size of the first half, neither of which is empty. Of three planes, each
@@ -155,11 +172,12 @@ private:
     double costOf(Range part) const {
         double power = 0.0;
         for (const uint32_t i : part) power += lights_[i].power;
-        return power * boxOf(part).area() * coneMeasure(coneSpread(part, coneAxis(part)));
+        return power * boxOf(part).area() * coneMeasure(coneAround(part));
     }
 
     std::span<const TreeLight> lights_;
-    std::vector<dvec3> normals_, centroids_;
+    std::vector<EmissionCone> cones_;
+    std::vector<dvec3> centroids_;
     LightTree tree_;
 };
 

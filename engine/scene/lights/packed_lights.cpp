@@ -3,6 +3,7 @@
 #include "engine/scene/lights/alias_table.h"
 #include "engine/scene/lights/environment_reduction.h"
 #include "engine/scene/lights/light_tree.h"
+#include "engine/scene/lights/punctual_lights.h"
 #include "engine/scene/texture_packing.h"
 #include <algorithm>
 #include <bit>
@@ -43,21 +44,32 @@ double meanLuminance(const Environment& e, int x, int y) {
     return sum;
 }
 
-void packAliasTable(const std::vector<TreeLight>& lights, const std::vector<uint32_t>& primitives,
-                    std::vector<glm::uvec4>& out) {
+// Local lights, and what each record names: a primitive, or a punctual light.
+struct LocalLights {
+    std::vector<TreeLight> lights;
+    std::vector<uint32_t> names;
+};
+
+void packAliasTable(const LocalLights& local, std::vector<glm::uvec4>& out) {
     std::vector<double> powers;
-    for (const TreeLight& light : lights) powers.push_back(light.power);
+    for (const TreeLight& light : local.lights) powers.push_back(light.power);
     const std::vector<AliasEntry> table = buildAliasTable(powers);
     for (size_t i = 0; i < table.size(); ++i)
-        out.emplace_back(std::bit_cast<uint32_t>(table[i].keep), table[i].alias, primitives[i],
+        out.emplace_back(std::bit_cast<uint32_t>(table[i].keep), table[i].alias, local.names[i],
                          std::bit_cast<uint32_t>(static_cast<float>(table[i].mass)));
 }
 
+// Where there are points or spots, spread and reach share their bits.
+uint32_t packCone(const EmissionCone& cone, bool hasReach) {
+    if (!hasReach) return std::bit_cast<uint32_t>(static_cast<float>(std::cos(cone.spread)));
+    const auto code = [](double angle) { return uint32_t(std::ceil(65535.0 * std::sin(0.5 * angle))); };
+    return code(cone.spread) | code(cone.reach) << 16;
+}
+
 // Bounds are a little wider than the tree's, by what rounding them takes.
-void packTree(const std::vector<TreeLight>& lights, const std::vector<uint32_t>& primitives,
-              std::vector<glm::uvec4>& out) {
-    const LightTree tree = buildLightTree(lights);
-    for (size_t i = 0; i < lights.size(); ++i) out.emplace_back(tree.trails[i], 0u, primitives[i], 0u);
+void packTree(const LocalLights& local, bool hasReach, std::vector<glm::uvec4>& out) {
+    const LightTree tree = buildLightTree(local.lights);
+    for (size_t i = 0; i < tree.trails.size(); ++i) out.emplace_back(tree.trails[i], 0u, local.names[i], 0u);
     const double total = tree.nodes[0].power;
     for (const LightTreeNode& node : tree.nodes) {
         const glm::vec3 center(node.center);
@@ -66,8 +78,7 @@ void packTree(const std::vector<TreeLight>& lights, const std::vector<uint32_t>&
         const auto radius = static_cast<float>(1.000001 * node.radius + 2e-7 * reach);
         const auto share = static_cast<float>(total > 0.0 ? node.power / total : 0.0);
         out.push_back(std::bit_cast<glm::uvec4>(glm::vec4(center, radius)));
-        out.emplace_back(packOctahedral(glm::vec3(node.axis)),
-                         std::bit_cast<uint32_t>(static_cast<float>(std::cos(node.spread))),
+        out.emplace_back(packOctahedral(glm::vec3(node.cone.axis)), packCone(node.cone, hasReach),
                          std::bit_cast<uint32_t>(share),
                          node.isLeaf ? gpu::kLightLeaf | node.child : node.child);
     }
@@ -86,21 +97,24 @@ std::vector<double> emissiveLuminances(const Scene& scene) {
     return result;
 }
 
-float environmentProbability(const Scene& scene, const SceneNeeds& needs) {
-    if (!needs.environment) return 0.0f;
+LightShares lightShares(const Scene& scene, const SceneNeeds& needs) {
     const std::vector<double> luminances = emissiveLuminances(scene);
-    const bool shines =
+    const bool environment = !scene.environment.isBlack();
+    const bool directional = (needs.punctual & gpu::kPunctualDirectional) != 0;
+    const bool local =
+        (needs.punctual & gpu::kPunctualLocal) != 0 ||
         std::ranges::any_of(scene.triangles, [&](const Triangle& t) { return luminances[t.material] > 0.0; });
-    if (!needs.emitters || !shines) return 1.0f;
-    return scene.environment.isBlack() ? 0.0f : 0.5f;
+    const int groups = int(environment) + int(directional) + int(local);
+    if (groups == 0) return {needs.environment ? 1.0f : 0.0f, 0.0f, needs.environment ? 0.0f : 1.0f};
+    const float share = 1.0f / static_cast<float>(groups);
+    return {environment ? share : 0.0f, directional ? share : 0.0f, local ? share : 0.0f};
 }
 
 PackedLights packLights(const Scene& scene, const std::vector<bool>& emitters) {
     const std::vector<double> luminances = emissiveLuminances(scene);
     PackedLights out;
     out.lightOf.resize(scene.triangles.size(), gpu::kNoLight);
-    std::vector<TreeLight> lights;
-    std::vector<uint32_t> primitives;
+    LocalLights local;
     for (size_t i = 0; i < scene.triangles.size(); ++i) {
         const Triangle& t = scene.triangles[i];
         if (!emitters[t.material]) continue;
@@ -109,14 +123,24 @@ PackedLights packLights(const Scene& scene, const std::vector<bool>& emitters) {
         const auto& [a, b, c] = light.corners;
         light.power = 0.5 * glm::length(glm::cross(b - a, c - a)) * luminances[t.material];
         light.isTwoSided = scene.materials[t.material].doubleSided;
-        out.lightOf[i] = out.count++;
-        lights.push_back(light);
-        primitives.push_back(static_cast<uint32_t>(i));
+        out.lightOf[i] = out.emitters++;
+        local.lights.push_back(light);
+        local.names.push_back(static_cast<uint32_t>(i));
     }
+    const PackedPunctualLights punctual = packPunctualLights(scene);
+    for (const PunctualLight* light : localPunctualLights(scene)) {
+        const auto index = static_cast<uint32_t>(local.lights.size()) - out.emitters;
+        local.lights.push_back(treeLight(*light));
+        local.names.push_back(gpu::kPunctual | (punctual.directional + index));
+    }
+    out.count = static_cast<uint32_t>(local.lights.size());
     if (out.count >= kLightTreeFrom)
-        packTree(lights, primitives, out.quads);
+        packTree(local, out.count > out.emitters, out.quads);
     else
-        packAliasTable(lights, primitives, out.quads);
+        packAliasTable(local, out.quads);
+    out.directional = punctual.directional;
+    out.firstPunctual = static_cast<uint32_t>(out.quads.size());
+    out.quads.insert(out.quads.end(), punctual.quads.begin(), punctual.quads.end());
     return out;
 }
 

@@ -8,7 +8,7 @@
 // Density per solid angle of sampling a point of a light chosen with some chance, from distance t, at cosine |cosine| of
 // its normal.
 float trianglePdf(float chance, float area, float t, float cosine) {
-    return chance * t * t / max(area * cosine, 1e-37) * shareOfTriangles();
+    return chance * t * t / max(area * cosine, 1e-37) * shareOfLocalLights();
 }
 
 #endif

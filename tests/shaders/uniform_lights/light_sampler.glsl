@@ -1,16 +1,17 @@
-// Which light is sampled: any of the emissive triangles with one probability, the environment half of the time.
+// Which light is sampled: each group that there is with one probability, and so any of the local lights.
 #ifndef IRRADIA_LIGHT_SAMPLER_GLSL
 #define IRRADIA_LIGHT_SAMPLER_GLSL
 #include "lib/rng.glsl"
 #include "path/light_choice.glsl"
 #include "path/needs.glsl"
 
-float shareOfEnvironment() { return kHasEnvironment && kHasEmitters ? 0.5 : 1.0; }
-float shareOfTriangles() { return shareOfEnvironment(); }
+float shareOfEnvironment() { return 1.0 / float(kLightGroups); }
+float shareOfDirectionalLights() { return shareOfEnvironment(); }
+float shareOfLocalLights() { return shareOfEnvironment(); }
 
 float lightChance(uint light, Receiver receiver) { return 1.0 / float(frame.lightCount); }
 
-LightChoice chooseTriangleLight(Receiver receiver, uvec4 random) {
+LightChoice chooseLocalLight(Receiver receiver, uvec4 random) {
     return LightChoice(uniformIndex(random.x, frame.lightCount), lightChance(0u, receiver));
 }
 

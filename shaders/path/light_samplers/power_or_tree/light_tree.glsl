@@ -1,11 +1,11 @@
-// Choice of an emissive triangle by what it may send to a receiver: Conty Estevez and Kulla 2018, "Importance Sampling of
-// Many Lights with Adaptive Tree Splitting". Bindings: `lights` (quads); `frame` is
-// FrameConstants.
+// Choice of a local light by what it may send to a receiver: Conty Estevez and Kulla 2018, "Importance Sampling of Many
+// Lights with Adaptive Tree Splitting". Bindings: `lights` (quads); `frame` is FrameConstants.
 #ifndef IRRADIA_PATH_LIGHT_TREE_GLSL
 #define IRRADIA_PATH_LIGHT_TREE_GLSL
 #include "lib/math.glsl"
 #include "lib/rng.glsl"
 #include "path/light_choice.glsl"
+#include "path/needs.glsl"
 #include "path/sampler.glsl"
 #include "shared/scene.h"
 
@@ -20,8 +20,16 @@ float cosOfExcess(float cosA, float cosB) {
     return cosA >= cosB ? 1.0 : cosA * cosB + sqrt(product);
 }
 
+// Cosines of a node's angles: those of its cone, and how far light reaches beyond it.
+vec2 cosinesOfCone(uint code) {
+    if (!kHasPoints) return vec2(uintBitsToFloat(code), 0.0);
+    vec2 sines = unpackUnorm2x16(code);
+    return 1.0 - 2.0 * sines * sines;
+}
+
 // Power over squared distance, times two cosines at their largest for a direction to the point from within the node's
-// sphere: to a normal in the node's cone, and to the receiver's normal: the paper's importance.
+// sphere: to a normal in the node's cone, none where light does not reach so far beyond it, and to the receiver's normal:
+// the paper's importance. Of points it is not cut where their range ends.
 LightBranch lightBranch(uint node, Receiver receiver) {
     uint at = frame.lightCount + node * kLightNodeQuads;
     vec4 sphere = uintBitsToFloat(loadQuad(lights, at));
@@ -33,8 +41,10 @@ LightBranch lightBranch(uint node, Receiver receiver) {
     float cosSphere = sqrt(max(1.0 - squaredRadius * scale * scale, 0.0)); // of the angle that its radius subtends
     float cosAxis = clamp(dot(decodeOctahedral(r.x), to) * scale, -1.0, 1.0);
     float cosNormal = clamp(-dot(receiver.normal, to) * scale, -1.0, 1.0);
-    float cosines = max(cosOfExcess(cosOfExcess(cosAxis, uintBitsToFloat(r.y)), cosSphere), 0.0) *
-                    max(cosOfExcess(cosNormal, cosSphere), 0.0);
+    vec2 cone = cosinesOfCone(r.y);
+    float cosEmitted = cosOfExcess(cosOfExcess(cosAxis, cone.x), cosSphere);
+    if (kHasPoints) cosEmitted = cosEmitted < cone.y ? 0.0 : cosEmitted;
+    float cosines = max(cosEmitted, 0.0) * max(cosOfExcess(cosNormal, cosSphere), 0.0);
     bool isWithin = squared <= squaredRadius;
     return LightBranch(uintBitsToFloat(r.z) * (isWithin ? 1.0 : cosines) / max(max(squared, squaredRadius), 1e-37), r.w);
 }

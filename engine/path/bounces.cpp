@@ -102,7 +102,8 @@ void Bounces::scatter(FrameGraph& graph, const gpu::WaveParams& params, const Pa
         .read(scene_.reflectanceTable)
         .write(buffers_.rays[1 - params.queueParity])
         .write(buffers_.shadowRays)
-        .readWrite(buffers_.passages);
+        .readWrite(buffers_.passages)
+        .read(scene_.glassTable);
     if (tap) pass.bind(tap->light).bind(tap->vertex);
     pass.push(params).dispatchIndirect(itemArguments_);
 }

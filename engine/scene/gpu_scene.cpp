@@ -1,6 +1,7 @@
 #include "engine/scene/gpu_scene.h"
 
 #include "engine/error.h"
+#include "engine/scene/glass_table.h"
 #include "engine/scene/lights/packed_lights.h"
 #include "engine/scene/reflectance_table.h"
 #include <algorithm>
@@ -30,7 +31,11 @@ GpuScene uploadScene(Device& device, const PackedScene& packed, const Bvh& bvh) 
     scene.environment = makeBuffer(device, "environment", packed.environment);
     scene.environmentAlias = makeBuffer(device, "environment alias table", packed.environmentAlias);
     if (!packed.areaTable.empty()) scene.areaTable = makeBuffer(device, "area table", packed.areaTable);
-    scene.reflectanceTable = makeBuffer(device, "reflectance table", buildReflectanceTable());
+    const std::vector<glm::vec4> reflectances = buildReflectanceTable();
+    scene.reflectanceTable = makeBuffer(device, "reflectance table", reflectances);
+    scene.glassTable =
+        makeBuffer(device, "glass table",
+                   packed.needs.glass ? buildGlassTable(reflectances) : std::vector<glm::vec4>(1));
     scene.needs = packed.needs;
     scene.origin = packed.origin;
     scene.triangles = static_cast<uint32_t>(packed.geometry.size() / gpu::kGeometryQuads);

@@ -19,6 +19,7 @@ struct GpuScene {
     Buffer environmentAlias;
     Buffer areaTable; // none unless it was packed
     Buffer reflectanceTable;
+    Buffer glassTable; // only for its being there, unless the scene has glass
 
     SceneNeeds needs;
     glm::dvec3 origin{0.0}; // Scene::origin

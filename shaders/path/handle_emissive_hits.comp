@@ -46,7 +46,7 @@ void main() {
     emitted *= passageOf(path);
     float weight = 1.0;
     if (params.depth > 0u) {
-        Receiver receiver = Receiver(uintBitsToFloat(origin.xyz), decodeOctahedral(beta.w));
+        Receiver receiver = receiverOf(uintBitsToFloat(origin.xyz), beta.w);
         float chance = lightChance(tri.light, receiver);
         float pdf = trianglePdf(chance, 0.5 * doubleArea, uintBitsToFloat(hit.x), abs(cosine));
         weight = powerHeuristic(ray.w, pdf);

@@ -21,9 +21,10 @@ vec3 transmittanceOf(uint medium, float distance) {
     return medium == 0u ? vec3(1.0) : exp(-absorption * distance);
 }
 
+// Of refraction. glTF's 0 stands for what reflects all.
 float indexOf(uint medium) {
     float index = uintBitsToFloat(loadQuad(materials, (max(medium, 1u) - 1u) * kMaterialQuads + 5u).w);
-    return medium == 0u ? 1.0 : index;
+    return medium == 0u ? 1.0 : (index > 0.0 ? index : 1000.0);
 }
 
 // What a ray that ends at a primitive travels in: the inside of what it meets from behind.
@@ -44,5 +45,27 @@ uint mediaWithout(uint media, uint inside) {
 
 // Of light that is reflected in it.
 uint mediaReflected(uint media, uint inside) { return innermost(media) == inside ? media : mediaWithin(media, inside); }
+
+// What a face parts, as light meets it: the media on either side of a solid's; all others have the same on both.
+struct Interface {
+    uint here; // media
+    uint beyond;
+    float index;  // of refraction of the solid
+    float eta;    // the index beyond over that here
+    bool isSolid;
+};
+
+Interface interfaceOf(uint media, uint material, bool isFront) {
+    uint inside = mediumOf(material);
+    uint outside = isFront ? media : mediaWithout(media, inside);
+    Interface face;
+    face.isSolid = inside != 0u;
+    face.here = isFront || inside == 0u ? media : mediaReflected(media, inside);
+    face.beyond = inside == 0u ? media : (isFront ? mediaWithin(media, inside) : outside);
+    face.index = indexOf(inside);
+    float eta = face.index / indexOf(innermost(outside));
+    face.eta = isFront ? eta : 1.0 / eta;
+    return face;
+}
 
 #endif

@@ -21,8 +21,9 @@ void addHit(uint slot, inout vec4 sums[kLayerVectors]) {
     uvec4 hit = loadQuad(hits, slot);
     if (hit.y == kNoPrimitive) return;
     vec3 view = -uintBitsToFloat(loadQuad(rays, slot * kRayQuads + 1u).xyz);
-    Surface s = loadSurface(hit.y, uintBitsToFloat(hit.zw), view);
+    Surface s = loadSurface(hit.y, uintBitsToFloat(hit.zw), view, kNoMedia);
     vec3 albedo = s.bsdf.diffuse + s.bsdf.specularF0;
+    if (s.isGlass) albedo += s.glass.tint;
     float depth = dot(s.position - camera.position.xyz, camera.forward.xyz);
     sums[0] += vec4(albedo, 1.0);
     sums[1] += vec4(s.shadingNormal, depth);

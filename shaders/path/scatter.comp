@@ -23,14 +23,14 @@ QUADS_READ(12, reflectanceTable);
 QUADS_WRITE(13, nextRays);
 QUADS_WRITE(14, shadowRays);
 QUADS(15, passages);
+QUADS_READ(16, glassTable);
 layout(push_constant) uniform Push { WaveParams params; };
 #include "path/light_sampling.glsl"
 #include "path/passage.glsl"
 #include "path/sampler.glsl"
-#include "path/reflectance.glsl"
-#include "path/surface.glsl"
+#include "path/scattering.glsl"
 #include "path/wave.glsl"
-#define TAP_BINDING 16
+#define TAP_BINDING 17
 #include "tap_light.glsl"
 #include "tap_vertex.glsl"
 
@@ -70,7 +70,8 @@ void main() {
     uint pixel = pixelOf(path);
     uint sampleIndex = sampleOf(path);
 
-    Surface s = loadSurface(alive ? hit.y : 0u, uintBitsToFloat(hit.zw), view);
+    uint media = kHasTransparency ? loadQuad(passages, path).w : kNoMedia;
+    Surface s = loadSurface(alive ? hit.y : 0u, uintBitsToFloat(hit.zw), view, media);
     float arrivalPdf = uintBitsToFloat(loadQuad(rays, slot * kRayQuads + 1u).w);
     vec3 passage = passageOf(path);
     beta *= passage;
@@ -78,47 +79,42 @@ void main() {
     alive = visit.goesOn;
     vec3 directLight = vec3(0.0); // as the tap hears it
     Frame local = frameFromNormal(s.shadingNormal);
-    vec3 v = toLocal(local, view);
-    vec3 origin = s.position + s.geometricNormal * s.error;
-    vec3 abcView = reflectanceAt(v.z, s.roughness);
-    float mendView = diffuseMend(s.bsdf, abcView);
-    float pSpecular = kHasSpecular ? specularProbability(s.bsdf, abcView, mendView) : 0.0;
+    Scattering scattering = prepareScattering(s, toLocal(local, view));
 
-    uint normalCode = encodeOctahedral(s.shadingNormal); // as a ray's emissive hit will find it
+    uint normalCode = receiverCode(s); // as a ray's emissive hit will find it
     if (kLightGroups > 0) {
         uvec4 random = lightBits(pixel, sampleIndex, params.depth, frame.seed);
         float choice = kLightGroups > 1
                            ? unitFloat(lightChoiceBits(random, pixel, sampleIndex, params.depth, frame.seed))
                            : 0.0;
-        LightSample light = sampleLight(Receiver(origin, decodeOctahedral(normalCode)), random, choice);
+        LightSample light = sampleLight(receiverOf(leavingPoint(s, vec3(0.0)), normalCode), random, choice);
         vec3 l = toLocal(local, light.direction);
-        float mend = min(mendView, diffuseMend(s.bsdf, reflectanceAt(l.z, s.roughness)));
-        Bsdf lit = s.bsdf;
-        if (light.isPunctual) lit = bsdfUnderPunctual(lit);
-        BsdfValue value = evaluateBsdf(lit, v, l, mend, pSpecular, kHasSpecular);
-        bool reflects = l.z > 0.0 && dot(s.geometricNormal, light.direction) > 0.0 && light.pdf > 0.0;
+        BsdfValue value = evaluateScattering(s, scattering, l, light.isPunctual);
+        if (kHasGlass && light.tMax < kFarAway)
+            light.radiance *= transmittanceOf(innermost(leavingMedia(s, l)), light.tMax);
+        bool arrives = isScattered(s, l, light.direction) && light.pdf > 0.0;
         vec3 contribution =
-            reflects ? beta * value.fCos * light.radiance * lightWeight(light, value.pdf) : vec3(0.0);
+            arrives ? beta * value.fCos * light.radiance * lightWeight(light, value.pdf) : vec3(0.0);
         bool counts = maxComponent(contribution) > 0.0;
-        if (visit.listens && reflects)
+        if (visit.listens && arrives)
             directLight = value.fCos * light.radiance * lightWeight(light, value.pdf);
         counts = counts || maxComponent(directLight) > 0.0;
-        pushShadowRay(alive && counts, origin, light.tMax, light.direction, path, contribution);
+        pushShadowRay(alive && counts, leavingPoint(s, l), light.tMax, light.direction, path, contribution);
     }
 
     vec4 u = unitFloats(bsdfBits(pixel, sampleIndex, params.depth, frame.seed));
-    vec3 l = sampleBsdf(s.bsdf, v, u.xyz, pSpecular, kHasSpecular);
+    vec3 l = sampleScattering(s, scattering, u.xyz);
     vec3 direction = toWorld(local, l);
-    float mend = min(mendView, diffuseMend(s.bsdf, reflectanceAt(l.z, s.roughness)));
-    BsdfValue value = evaluateBsdf(s.bsdf, v, l, mend, pSpecular, kHasSpecular);
-    bool reflects = l.z > 0.0 && dot(s.geometricNormal, direction) > 0.0 && value.pdf > 0.0;
-    vec3 nextBeta = reflects ? beta * value.fCos / value.pdf : vec3(0.0);
+    BsdfValue value = evaluateScattering(s, scattering, l, false);
+    bool isFollowed = isScattered(s, l, direction) && value.pdf > 0.0;
+    vec3 nextBeta = isFollowed ? beta * value.fCos / value.pdf : vec3(0.0);
     // Russian roulette after bounce 3, on the throughput itself.
     float survival = params.depth >= 3u ? min(maxComponent(nextBeta), 1.0) : 1.0;
-    vec3 throughput = reflects ? value.fCos / value.pdf : vec3(0.0);
+    vec3 throughput = isFollowed ? value.fCos / value.pdf : vec3(0.0);
     survival = survivalOf(visit, survival, throughput);
     bool scatters = maxComponent(nextBeta) > 0.0 || goesOnUnseen(visit, throughput);
     leave(visit, directLight, throughput / max(survival, 1e-30));
     bool survives = scatters && u.w < survival;
-    pushRay(alive && survives, origin, direction, path, nextBeta / max(survival, 1e-30), value.pdf, normalCode);
+    if (kHasTransparency && alive) storeQuad(passages, path, uvec4(floatBitsToUint(vec3(1.0)), kHasGlass ? leavingMedia(s, l) : kNoMedia));
+    pushRay(alive && survives, leavingPoint(s, l), direction, path, nextBeta / max(survival, 1e-30), value.pdf, normalCode);
 }

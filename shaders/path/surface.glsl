@@ -1,8 +1,9 @@
-// The shaded point of a hit: its frame and its BSDF, textures applied. Bindings as scene.glsl.
+// The shaded point of a hit: its frame, its BSDF and what it parts, textures applied. Bindings as scene.glsl.
 #ifndef IRRADIA_PATH_SURFACE_GLSL
 #define IRRADIA_PATH_SURFACE_GLSL
-#include "lib/bsdf.glsl"
+#include "lib/glass.glsl"
 #include "lib/plane_error.glsl"
+#include "path/media.glsl"
 #include "path/scene.glsl"
 
 struct Surface {
@@ -12,9 +13,10 @@ struct Surface {
     vec3 shadingNormal;   // likewise, and never facing away from the viewer
     Bsdf bsdf;
     float roughness;
-    bool isFront;
-    float transmission; // of what is neither metal nor reflected
-    vec3 transmitted;   // its colour: base colour (1 - metallic) transmission
+    bool isGlass; // it has lobes beyond itself: glass says which
+    Glass glass;
+    uint mediaHere; // of rays that leave on the viewer's side,
+    uint mediaBeyond; // and on the other
 };
 
 const float kMinShadingCosine = 0.01; // of the viewer: interpolated and mapped normals are bent to it
@@ -33,7 +35,8 @@ vec3 perturbNormal(vec3 ns, vec3 texel, float scale, TriangleAttributes a, uint 
     return usable ? n : ns;
 }
 
-Surface loadSurface(uint primitive, vec2 b, vec3 view) {
+// `media`: those from which it is seen.
+Surface loadSurface(uint primitive, vec2 b, vec3 view, uint media) {
     TriangleGeometry tri = loadTriangle(primitive);
     uvec3 normals = loadQuad(geometry, primitive * kGeometryQuads + 3u).xyz;
     TriangleAttributes a = attributesFor(kAllAttributes, primitive, b);
@@ -85,17 +88,23 @@ Surface loadSurface(uint primitive, vec2 b, vec3 view) {
     s.geometricNormal = ng;
     s.shadingNormal = ns;
     s.roughness = clamp(roughness, 0.0, 1.0);
-    s.bsdf = makeBsdf(base, clamp(metallic, 0.0, 1.0), s.roughness, f0, specular);
-    s.isFront = front;
-    s.transmission = 0.0;
-    s.transmitted = vec3(0.0);
+    metallic = clamp(metallic, 0.0, 1.0);
+    float transmission = 0.0;
     if (kHasTransparency) {
-        float transmission = uintBitsToFloat(loadQuad(materials, at + 6u).w);
+        transmission = uintBitsToFloat(loadQuad(materials, at + 6u).w);
         if ((kTextureMask & kTransmissionTexture) != 0u) transmission *= sampleTexture(loadQuad(materials, at + 5u).z, a).r;
-        s.transmission = clamp(transmission, 0.0, 1.0);
-        s.transmitted = s.bsdf.diffuse * s.transmission;
-        s.bsdf.diffuse *= 1.0 - s.transmission;
     }
+    s.isGlass = false;
+    if (kHasGlass) {
+        Interface face = interfaceOf(media, tri.material, front);
+        if (face.isSolid) f0 *= pairReflectance(face.index, face.eta);
+        s.glass = makeGlass(base, metallic, transmission, f0, specular, face.eta, !face.isSolid);
+        s.isGlass = transmission > 0.0 && (face.isSolid || square(s.roughness) > kMinAlpha);
+        s.mediaHere = face.here;
+        s.mediaBeyond = face.beyond;
+    }
+    s.bsdf = makeBsdf(base, metallic, s.roughness, f0, specular);
+    if (kHasTransparency) s.bsdf.diffuse *= 1.0 - transmission;
     return s;
 }
 

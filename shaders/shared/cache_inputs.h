@@ -3,8 +3,8 @@
 //   direction 2   towards which light is scattered: (theta, phi) of sphericalCoordinates
 //   normal 2      shading normal, likewise
 //   roughness 1   1 - exp(-roughness)
-//   alpha 3       diffuse reflectance: base colour (1 - metallic)
-//   beta 3        specular reflectance: mix(F0, base colour, metallic)
+//   alpha 3       diffuse reflectance: base colour (1 - metallic) (1 - transmission)
+//   beta 3        specular reflectance: mix(F0, base colour, metallic) + base colour (1 - metallic) transmission
 // stored as kCacheInputQuads quads, the last two values zero. alpha + beta is the reflectance by which predictions are
 // multiplied where the cache factorises it.
 #ifndef IRRADIA_SHARED_CACHE_INPUTS_H

@@ -19,7 +19,7 @@ void main() {
     if (i >= params.count) return;
     uvec4 view = loadQuad(queries, 2u * i);
     vec2 b = uintBitsToFloat(loadQuad(queries, 2u * i + 1u).xy);
-    Surface s = loadSurface(view.w, b, uintBitsToFloat(view.xyz));
+    Surface s = loadSurface(view.w, b, uintBitsToFloat(view.xyz), kNoMedia);
     storeQuad(results, 5u * i, floatBitsToUint(vec4(s.position, 0.0)));
     storeQuad(results, 5u * i + 1u, floatBitsToUint(vec4(s.geometricNormal, 0.0)));
     storeQuad(results, 5u * i + 2u, floatBitsToUint(vec4(s.shadingNormal, s.roughness)));

@@ -14,23 +14,29 @@ vec3 smoothNormal(uint primitive, vec2 b) {
     return n * inversesqrt(max(dot(n, n), 1e-20));
 }
 
-// Of what is there of a sheet: its colour less what it reflects.
+// Of what is there of a sheet: its colour less what it reflects, where it is clear.
 vec3 sheetTransmittance(uint material, TriangleAttributes a, float cosine) {
     uint at = material * kMaterialQuads;
     vec4 m0 = uintBitsToFloat(loadQuad(materials, at));
+    float roughness = uintBitsToFloat(loadQuad(materials, at + 1u).w);
     vec4 m2 = uintBitsToFloat(loadQuad(materials, at + 2u));
     float transmission = uintBitsToFloat(loadQuad(materials, at + 6u).w);
     uvec4 codes = loadQuad(materials, at + 4u);
     uvec4 codes2 = loadQuad(materials, at + 5u);
     vec3 base = m0.rgb * a.color.rgb;
     if ((kTextureMask & kBaseColorTexture) != 0u) base *= sampleTexture(codes.x, a).rgb;
-    if ((kTextureMask & kMetallicRoughnessTexture) != 0u) m0.w *= sampleTexture(codes.y, a).b;
+    if ((kTextureMask & kMetallicRoughnessTexture) != 0u) {
+        vec4 texel = sampleTexture(codes.y, a);
+        roughness *= texel.g;
+        m0.w *= texel.b;
+    }
     if ((kTextureMask & kSpecularTexture) != 0u) m2.w *= sampleTexture(codes2.x, a).a;
     if ((kTextureMask & kSpecularColorTexture) != 0u) m2.rgb *= sampleTexture(codes2.y, a).rgb;
     if ((kTextureMask & kTransmissionTexture) != 0u) transmission *= sampleTexture(codes2.z, a).r;
     float f0 = min(maxComponent(m2.rgb), 1.0);
     float reflected = m2.w * mix(f0, 1.0, schlickWeight(cosine));
-    return base * ((1.0 - clamp(m0.w, 0.0, 1.0)) * transmission * (1.0 - reflected));
+    vec3 transmitted = base * ((1.0 - clamp(m0.w, 0.0, 1.0)) * transmission * (1.0 - reflected));
+    return isClear(roughness) ? transmitted : vec3(0.0);
 }
 
 struct SeeThrough {
@@ -44,8 +50,7 @@ SeeThrough seeThrough(uint primitive, vec2 b, vec3 direction) {
     float coverage = coverageOf(material, a);
     vec3 passing = vec3(1.0 - coverage);
     uint flags = loadQuad(materials, material * kMaterialQuads + 3u).y;
-    float roughness = uintBitsToFloat(loadQuad(materials, material * kMaterialQuads + 1u).w);
-    if ((flags & kMaterialSheet) != 0u && isClear(roughness))
+    if ((flags & kMaterialSheet) != 0u)
         passing += coverage * sheetTransmittance(material, a, abs(dot(smoothNormal(primitive, b), direction)));
     return SeeThrough(passing, coverage);
 }

@@ -44,7 +44,9 @@ LightBranch lightBranch(uint node, Receiver receiver) {
     vec2 cone = cosinesOfCone(r.y);
     float cosEmitted = cosOfExcess(cosOfExcess(cosAxis, cone.x), cosSphere);
     if (kHasPoints) cosEmitted = cosEmitted < cone.y ? 0.0 : cosEmitted;
-    float cosines = max(cosEmitted, 0.0) * max(cosOfExcess(cosNormal, cosSphere), 0.0);
+    float cosReceived = max(cosOfExcess(cosNormal, cosSphere), 0.0);
+    if (kHasGlass) cosReceived = receiver.normal == vec3(0.0) ? 1.0 : cosReceived;
+    float cosines = max(cosEmitted, 0.0) * cosReceived;
     bool isWithin = squared <= squaredRadius;
     return LightBranch(uintBitsToFloat(r.z) * (isWithin ? 1.0 : cosines) / max(max(squared, squaredRadius), 1e-37), r.w);
 }

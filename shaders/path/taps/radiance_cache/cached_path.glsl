@@ -85,8 +85,10 @@ vec2 sphericalCoordinates(vec3 d) {
 
 CacheInputs inputsOf(Surface s, vec3 view) {
     vec3 position = (s.position - rule.boxLow.xyz) * rule.boxLow.w;
+    vec3 beta = s.bsdf.specularF0;
+    if (s.isGlass) beta += s.glass.tint;
     return packCacheInputs(position, sphericalCoordinates(view), sphericalCoordinates(s.shadingNormal), 1.0 - exp(-s.roughness),
-                           s.bsdf.diffuse, s.bsdf.specularF0);
+                           s.bsdf.diffuse, beta);
 }
 
 bool isInBox(vec3 p) { return all(greaterThanEqual(p, rule.boxLow.xyz)) && all(lessThanEqual(p, rule.boxHigh.xyz)); }

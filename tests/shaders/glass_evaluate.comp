@@ -8,7 +8,7 @@ QUADS_READ(0, cases);
 QUADS_READ(1, reflectanceTable);
 QUADS_READ(2, glassTable);
 QUADS_READ(3, directions);
-QUADS_WRITE(4, results); // 4 each
+QUADS_WRITE(4, results); // 4 each, as GlassEvaluation has them
 layout(push_constant) uniform Push { BsdfHarnessParams params; };
 #include "glass_case.glsl"
 
@@ -23,5 +23,5 @@ void main() {
     storeQuad(results, 4u * i, floatBitsToUint(vec4(value.fCos, value.pdf)));
     storeQuad(results, 4u * i + 1u, floatBitsToUint(vec4(t, c.view.pDiffuse, c.view.pFacets)));
     storeQuad(results, 4u * i + 2u, floatBitsToUint(vec4(c.view.pReturn, c.view.multiple, c.glass.eta, c.view.transmits)));
-    storeQuad(results, 4u * i + 3u, floatBitsToUint(vec4(punctual, 0.0)));
+    storeQuad(results, 4u * i + 3u, floatBitsToUint(vec4(punctual, c.view.pMultiple)));
 }

@@ -54,8 +54,8 @@ std::vector<GlassEvaluation> evaluateGlass(const std::vector<GlassCase>& cases,
     for (size_t i = 0; i < cases.size(); ++i) {
         const glm::vec4 value = toFloats(results[4 * i]), lobes = toFloats(results[4 * i + 1]),
                         more = toFloats(results[4 * i + 2]), punctual = toFloats(results[4 * i + 3]);
-        evaluations.push_back({glm::vec3(value), value.w, lobes.x, lobes.y, lobes.z, lobes.w, more.x, more.y,
-                               more.z, more.w > 0.0f, glm::vec3(punctual)});
+        evaluations.push_back({glm::vec3(value), value.w, lobes.x, lobes.y, lobes.z, lobes.w, punctual.w,
+                               more.x, more.y, more.z, more.w > 0.0f, glm::vec3(punctual)});
     }
     return evaluations;
 }

@@ -32,10 +32,10 @@ struct GlassEvaluation {
     float pdf;
     float mend; // smaller one of v's and l's
     float loss; // 1 - E(l)
-    float pDiffuse, pFacets, pReturn;
-    float multiple; // f_ms / (1 - E(l))
-    float eta;      // as the kernel has it
-    bool transmits;
+    float pDiffuse, pFacets, pMultiple, pReturn;
+    float multiple;     // f_ms / (1 - E(l))
+    float eta;          // as the kernel has it
+    bool transmits;     // has a transmission lobe
     glm::vec3 punctual; // f cos of what a punctual light may show in
 };
 

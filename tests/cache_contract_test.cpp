@@ -114,6 +114,40 @@ TEST_CASE("targets are the furnace's scattered radiance at every vertex of train
     }
 }
 
+TEST_CASE("targets hold the light of a point once, whether paths end in the cache or not") {
+    Scene scene;
+    reference::addSphereFromInside(scene, reference::addMaterial(scene, reference::lambert(glm::vec3(0.5f))),
+                                   glm::vec3(0.0f), 1.0f, 16);
+    // All light of the point falls on the sphere of this area, which scatters it back onto itself until the
+    // mean of what it scatters is the mean irradiance over pi, 1/2.
+    PunctualLight point;
+    double area = 0.0;
+    for (const Triangle& t : scene.triangles) {
+        const glm::vec3 a = scene.vertices[t.vertex.x].position, b = scene.vertices[t.vertex.y].position;
+        area += 0.5 * glm::length(glm::cross(b - a, scene.vertices[t.vertex.z].position - a));
+    }
+    point.intensity = glm::vec3(static_cast<float>(0.125 * area));
+    scene.lights = {point};
+    PackedScene packed = packScene(scene);
+    packAreaTable(packed);
+    const GpuScene gpu = uploadScene(device(), packed, buildBvh(scene));
+    for (const float unbiasedShare : {0.0f, 1.0f}) {
+        NrcOptions options = oracleOptions(picture(192), 0.5f, 32768, true);
+        options.config.endDepth = 0;
+        options.config.trainingSpread = -1.0f;
+        options.config.unbiasedShare = unbiasedShare;
+        OracleRenderer oracle(device(), gpu, sceneBounds(scene), options);
+        CHECK(std::abs(mean(oracle.render(kCamera, 1).mean) - 0.5) < 0.02); // facets are not lit evenly
+        double sum = 0.0, count = 0.0;
+        for (const reference::TrainingPath& path : oracle.trainingPaths())
+            if (!path.vertices.empty())
+                sum += reference::luminance(path.vertices.front().gathered), count += 1.0;
+        INFO("target " << sum / count);
+        CHECK(count > 32000.0);
+        CHECK(std::abs(sum / count - 0.5) < 0.01);
+    }
+}
+
 TEST_CASE("targets of paths from the surfaces are the furnace's scattered radiance too") {
     struct Case {
         float spread;

@@ -39,6 +39,38 @@ std::vector<TreeLight> anyLights(size_t count) {
     return lights;
 }
 
+// Lights without extent: points, and spots of any angles.
+std::vector<TreeLight> anyLamps(size_t count) {
+    Random random(34);
+    std::vector<TreeLight> lamps;
+    while (lamps.size() < count) {
+        const Vec3 at = 10.0 * random.uniform() * anyDirection(random);
+        lamps.push_back({{at, at, at}, 0.1 + random.uniform(), false});
+        const double outer = 0.5 * kPi * random.uniform(), inner = outer * random.uniform();
+        lamps.back().cone = lamps.size() % 3 == 0 ? EmissionCone{{0, 0, 1}, kPi}
+                                                  : EmissionCone{anyDirection(random), inner, outer - inner};
+    }
+    return lamps;
+}
+
+std::vector<TreeLight> mixedLights(size_t ofEach) {
+    std::vector<TreeLight> lights = anyLights(ofEach);
+    const std::vector<TreeLight> lamps = anyLamps(ofEach);
+    lights.insert(lights.end(), lamps.begin(), lamps.end());
+    return lights;
+}
+
+// Whether a light without extent, or a triangle's front or shining back, sends light to a point.
+bool sendsTo(const TreeLight& light, const Vec3& point) {
+    const Vec3 to = glm::normalize(point - light.corners[0]);
+    if (!light.cone)
+        return light.isTwoSided ||
+               glm::dot(glm::cross(light.corners[1] - light.corners[0], light.corners[2] - light.corners[0]),
+                        to) > 0.0;
+    return std::acos(std::clamp(glm::dot(light.cone->axis, to), -1.0, 1.0)) <
+           light.cone->spread + light.cone->reach;
+}
+
 // A closed sphere of radius 1 around the origin that shines outwards; rings x 2 rings x 2 triangles less
 // those at the poles.
 std::vector<TreeLight> shiningSphere(int rings) {
@@ -71,10 +103,13 @@ void checkTrail(const LightTree& tree, const std::vector<TreeLight>& lights, uin
         const LightTreeNode& node = tree.nodes[at];
         for (const Vec3& corner : lights[light].corners)
             REQUIRE(glm::distance(corner, node.center) <= node.radius + 1e-12);
-        if (lights[light].isTwoSided)
-            REQUIRE(node.spread == kPi);
-        else
-            REQUIRE(glm::dot(node.axis, normalOf(lights[light])) >= std::cos(node.spread) - 1e-9);
+        const EmissionCone& cone = node.cone;
+        const EmissionCone own =
+            lights[light].cone ? *lights[light].cone
+                               : EmissionCone{normalOf(lights[light]), lights[light].isTwoSided ? kPi : 0.0};
+        const double between = std::acos(std::clamp(glm::dot(cone.axis, own.axis), -1.0, 1.0));
+        REQUIRE(std::min(between + own.spread, kPi) <= cone.spread + 1e-9);
+        REQUIRE(own.reach <= cone.reach);
         if (node.isLeaf) break;
         REQUIRE(depth < kMaxLightTreeDepth);
         at = node.child + (tree.trails[light] >> depth & 1u);
@@ -87,7 +122,7 @@ void checkTrail(const LightTree& tree, const std::vector<TreeLight>& lights, uin
 } // namespace
 
 TEST_CASE("a hierarchy of lights has a leaf for each, bounds them and knows their power") {
-    const std::vector<TreeLight> lights = anyLights(3000);
+    const std::vector<TreeLight> lights = mixedLights(1500);
     const LightTree tree = buildLightTree(lights);
     CHECK(tree.nodes.size() == 2 * lights.size() - 1);
     for (uint32_t i = 0; i < lights.size(); ++i) checkTrail(tree, lights, i);
@@ -116,7 +151,7 @@ TEST_CASE("trails of lights that no plane parts well fit their bits") {
 }
 
 TEST_CASE("every light that shines on a point may be chosen there, and chances sum to one at most") {
-    const std::vector<TreeLight> lights = anyLights(500);
+    const std::vector<TreeLight> lights = mixedLights(250);
     const LightTree tree = buildLightTree(lights);
     Random random(33);
     int shining = 0, dark = 0;
@@ -126,9 +161,8 @@ TEST_CASE("every light that shines on a point may be chosen there, and chances s
         const std::vector<double> chances = test::lightChances(tree, {point, normal});
         CHECK(std::accumulate(chances.begin(), chances.end(), 0.0) <= 1.0 + 1e-9);
         for (size_t i = 0; i < lights.size(); ++i) {
-            const bool faces = glm::dot(normalOf(lights[i]), point - lights[i].corners[0]) > 0.0;
             const bool isAbove = glm::dot(normal, lights[i].corners[0] - point) > 0.0;
-            const bool shines = lights[i].power > 0.0 && isAbove && (faces || lights[i].isTwoSided);
+            const bool shines = lights[i].power > 0.0 && isAbove && sendsTo(lights[i], point);
             if (shines) REQUIRE(chances[i] > 0.0);
             (shines ? shining : dark) += 1;
         }
@@ -166,4 +200,31 @@ TEST_CASE("near lamps are chosen before far ones of the same power") {
         test::lightChances(buildLightTree(lamps), {Vec3(3.0, 0.0, 0.0), Vec3(0, 1, 0)});
     CHECK(chances[3] > 0.4); // by power 1/16; by what arrives 0.6
     CHECK(chances[3] > 20.0 * chances[15]);
+}
+
+TEST_CASE("a spot is not chosen where it does not shine, and a patch as often as the point that it equals") {
+    const auto lampAt = [](const Vec3& at, const EmissionCone& cone) {
+        TreeLight lamp{{at, at, at}, 1.0, false};
+        lamp.cone = cone;
+        return lamp;
+    };
+    const Vec3 down(0, -1, 0), up(0, 1, 0);
+    const std::vector<TreeLight> pair{lampAt({-1, 1, 0}, {down, kPi}), lampAt({1, 1, 0}, {down, 0.1, 0.4})};
+    const LightTree tree = buildLightTree(pair);
+    // On the floor, at an angle from the spot's axis.
+    const auto spotAt = [&](double degrees) {
+        const Vec3 point(1.0 - std::tan(degrees / 180.0 * kPi), 0.0, 0.0);
+        return test::lightChances(tree, {point, up})[1];
+    };
+    CHECK(std::abs(spotAt(0.0) - 1.0 / (1.0 + std::pow(5.0, -1.5))) < 1e-3); // the point is sqrt(5) away
+    CHECK(spotAt(28.0) > 0.3);
+    CHECK(spotAt(29.0) == 0.0);
+
+    // A small patch of area x radiance 1 straight above, and a point beside it.
+    const double size = 1e-3;
+    const Vec3 corner(-1, 1, 0);
+    std::vector<TreeLight> equal{{{corner, corner + Vec3(size, 0, 0), corner + Vec3(0, 0, size)}, 1.0, false},
+                                 lampAt({1, 1, 0}, {down, kPi})};
+    const std::vector<double> chances = test::lightChances(buildLightTree(equal), {Vec3(0, -100, 0), up});
+    CHECK(std::abs(chances[0] - 0.5) < 1e-3);
 }

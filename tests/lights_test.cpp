@@ -1,80 +1,29 @@
 // Light sampling in the shaders: what is chosen how often, the densities it claims, and direct light by it.
-#include "engine/scene/lights/light_tree.h"
 #include "engine/scene/lights/packed_lights.h"
-#include "kernels/shaders.h"
 #include "tests/reference/lights.h"
 #include "tests/reference/statistics.h"
 #include "tests/support/light_chances.h"
-#include "tests/support/light_harness.h"
+#include "tests/support/light_draws.h"
 #include "tests/support/light_scenes.h"
 #include <algorithm>
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/generators/catch_generators_range.hpp>
 #include <cmath>
-#include <numeric>
 
 using namespace irradia;
 using reference::kPi;
 using reference::Vec3;
-using test::toFloats;
+using test::drawLights;
+using test::kConeRounding;
+using test::kReceiverNormal;
+using test::kSamplers;
+using test::LightDraw;
+using test::Rays;
+using test::treeOf;
 
 namespace {
 
-constexpr float kFarAway = 1e30f;
-const Vec3 kNormal = glm::normalize(Vec3(0.2, 0.9, -0.4)); // of the receiver
-const double kLevel = reference::sidakLevel(0.01, 10);     // of each test of distribution
-// With Sobol' points one number makes a chain of choices, with random ones each has its own.
-constexpr uint32_t kSamplers[] = {gpu::kSamplerRandom, gpu::kSamplerSobol};
-constexpr double kConeRounding = 0.01; // of octahedral axes, some 1e-4: it shows where a cone just ends
-
-struct Sample {
-    Vec3 direction;
-    float tMax;
-    glm::vec3 radiance;
-    double pdf;
-    double hitPdf; // that a ray in the direction finds
-    double hitDistance;
-    uint32_t hitPrimitive;
-
-    bool isEnvironment() const { return tMax == kFarAway; }
-};
-
-enum class Rays { Cast, None };
-
-std::vector<Sample> drawLights(const Scene& scene, const glm::vec3& origin, uint32_t count, Rays rays,
-                               uint32_t sampler = gpu::kSamplerRandom) {
-    test::LightHarness harness(scene, kernels::lights_sample, {{gpu::kConstantSampler, sampler}});
-    gpu::LightHarnessParams params{};
-    params.origin = glm::vec4(origin, 0.0f);
-    params.normal = glm::vec4(glm::vec3(kNormal), 0.0f);
-    params.count = count;
-    params.triangleCount = rays == Rays::Cast ? harness.triangles() : 0;
-    const auto records = harness.run(params, 5, 3 * size_t(count));
-    std::vector<Sample> samples;
-    for (size_t i = 0; i < count; ++i) {
-        const glm::vec4 r0 = toFloats(records[3 * i]), r1 = toFloats(records[3 * i + 1]);
-        const glm::vec4 r2 = toFloats(records[3 * i + 2]);
-        samples.push_back({Vec3(r0), r0.w, glm::vec3(r1), r1.w, r2.x, r2.y, records[3 * i + 2].z});
-    }
-    return samples;
-}
-
-// The hierarchy of a scene all of whose triangles emit.
-LightTree treeOf(const Scene& scene) {
-    std::vector<TreeLight> lights;
-    for (const Triangle& t : scene.triangles) {
-        const Material& m = scene.materials[t.material];
-        TreeLight light;
-        for (int k = 0; k < 3; ++k) light.corners[k] = Vec3(scene.vertices[t.vertex[k]].position);
-        const auto& [a, b, c] = light.corners;
-        light.isTwoSided = m.doubleSided;
-        light.power = 0.5 * glm::length(glm::cross(b - a, c - a)) * reference::luminance(Vec3(m.emission)) *
-                      (m.doubleSided ? 2.0 : 1.0);
-        lights.push_back(light);
-    }
-    return buildLightTree(lights);
-}
-
+const double kLevel = reference::sidakLevel(0.01, 10); // of each test of distribution
 struct Agreement {
     double seen = 0.0;     // share of samples whose ray meets the sampled point and nothing before it
     double agreeing = 0.0; // share of these whose density is the one that the ray finds and the reference's
@@ -82,15 +31,15 @@ struct Agreement {
 
 Agreement compareDensities(const Scene& scene, const glm::vec3& origin) {
     const reference::Lights lights(scene);
-    const std::vector<Sample> samples = drawLights(scene, origin, 50000, Rays::Cast);
+    const std::vector<LightDraw> samples = drawLights(scene, origin, 50000, Rays::Cast);
     const bool isConstant = scene.environment.texels.empty(); // the reference samples it another way
     const bool hasTree = scene.triangles.size() >= kLightTreeFrom;
     const std::vector<double> chances =
-        hasTree ? test::lightChances(treeOf(scene), {Vec3(origin), kNormal}) : std::vector<double>{};
+        hasTree ? test::lightChances(treeOf(scene), {Vec3(origin), kReceiverNormal}) : std::vector<double>{};
     // Rounding in distances and in cosines down to 0.1.
     const double tolerance = hasTree ? kConeRounding : 1e-4;
     double seen = 0.0, agreeing = 0.0;
-    for (const Sample& s : samples) {
+    for (const LightDraw& s : samples) {
         REQUIRE((s.pdf > 0.0 && std::abs(glm::length(s.direction) - 1.0) < 1e-6));
         if (!s.isEnvironment() && std::abs(s.hitDistance - s.tMax) > 1e-3 * s.tMax) continue;
         ++seen;
@@ -130,38 +79,6 @@ double meanLuminance(const Environment& e, int x, int y) {
     return sum / (kPoints * kPoints);
 }
 
-struct Choice {
-    uint32_t light;
-    double chance; // with which it was chosen, 0 = none
-    double found;  // that a ray which meets it finds
-};
-
-std::vector<Choice> chooseLights(const Scene& scene, const glm::vec3& point, uint32_t count,
-                                 uint32_t sampler) {
-    test::LightHarness harness(scene, kernels::lights_choose, {{gpu::kConstantSampler, sampler}});
-    gpu::LightHarnessParams params{};
-    params.origin = glm::vec4(point, 0.0f);
-    params.normal = glm::vec4(glm::vec3(kNormal), 0.0f);
-    params.count = count;
-    std::vector<Choice> choices;
-    for (const glm::uvec4& record : harness.run(params, 6, count))
-        choices.push_back({record.x, toFloats(record).y, toFloats(record).z});
-    return choices;
-}
-
-// The bins expected to hold fewer than 100 become one.
-void lumpRare(std::vector<double>& counts, std::vector<double>& expected) {
-    std::vector<double> c(1), e(1);
-    for (size_t i = 0; i < counts.size(); ++i) {
-        const bool isRare = expected[i] < 100.0;
-        if (isRare)
-            c[0] += counts[i], e[0] += expected[i];
-        else
-            c.push_back(counts[i]), e.push_back(expected[i]);
-    }
-    counts = c, expected = e;
-}
-
 } // namespace
 
 TEST_CASE("few emitters are chosen by power") {
@@ -172,7 +89,7 @@ TEST_CASE("few emitters are chosen by power") {
     const uint32_t sampler = GENERATE(from_range(std::begin(kSamplers), std::end(kSamplers)));
     // An emitter is known by its blue; the back of one-sided ones, which is black, faces away from the
     // origin.
-    for (const Sample& s : drawLights(scene, glm::vec3(0.0f), kSamples, Rays::None, sampler))
+    for (const LightDraw& s : drawLights(scene, glm::vec3(0.0f), kSamples, Rays::None, sampler))
         counts.at(static_cast<size_t>(std::lround(s.radiance.b)) - 1) += 1.0;
     double total = 0.0;
     for (size_t i = 0; i < kCount; ++i) {
@@ -196,25 +113,14 @@ TEST_CASE("many emitters are chosen as their hierarchy's twin says") {
     // From the first point all lights lie 2 away; from the second and the third some show their backs.
     for (const glm::vec3& point :
          {glm::vec3(0.0f), glm::vec3(1.9f, 0.1f, -0.2f), glm::vec3(-7.0f, 3.0f, 2.0f)}) {
-        const std::vector<double> chances = test::lightChances(treeOf(scene), {Vec3(point), kNormal});
-        std::vector<double> counts(501), expected(501); // the last: the way down met no light
-        double worst = 0.0, worstFound = 0.0;
-        for (const Choice& c : chooseLights(scene, point, kSamples, sampler)) {
-            counts[c.chance > 0.0 ? c.light : 500] += 1.0;
-            if (c.chance == 0.0) continue;
-            worst = std::max(worst, std::abs(c.chance - chances[c.light]) / (chances[c.light] + 1e-4));
-            worstFound = std::max(worstFound, std::abs(c.found / c.chance - 1.0));
-        }
-        INFO("from " << point.x << ": chances off by " << worst << ", found ones by " << worstFound);
-        CHECK(worst < kConeRounding);
-        CHECK(worstFound < 1e-5); // rounding of some ten factors
-        for (size_t i = 0; i < 500; ++i) expected[i] = kSamples * chances[i];
-        expected[500] = kSamples * std::max(1.0 - std::accumulate(chances.begin(), chances.end(), 0.0), 0.0);
-        lumpRare(counts, expected);
-        CHECK(counts.size() > 20);
-        CHECK(reference::chiSquareTest(counts, expected).pValue > kLevel);
-        for (size_t i = 0; i < counts.size(); i += 2) expected[i] *= 1.05; // planted
-        CHECK(reference::chiSquareTest(counts, expected).pValue < 1e-6);
+        const test::ChoiceAgreement found = test::compareChoices(scene, point, kSamples, sampler);
+        INFO("from " << point.x << ": chances off by " << found.worst << ", found ones by "
+                     << found.worstFound);
+        CHECK(found.worst < kConeRounding);
+        CHECK(found.worstFound < 1e-5); // rounding of some ten factors
+        CHECK(found.bins > 20);
+        CHECK(found.pValue > kLevel);
+        CHECK(found.plantedPValue < 1e-6);
     }
 }
 
@@ -228,7 +134,7 @@ TEST_CASE("environment texels are chosen by luminance and solid angle, and point
     const size_t bins = sky.texels.size() * kParts * kParts;
     std::vector<double> counts(bins), expected(bins);
     const auto binOf = [&](int x, int y) { return static_cast<size_t>(y) * 16 * kParts + x; };
-    for (const Sample& s : drawLights(scene, glm::vec3(0.0f), kSamples, Rays::None, sampler)) {
+    for (const LightDraw& s : drawLights(scene, glm::vec3(0.0f), kSamples, Rays::None, sampler)) {
         const double u = std::atan2(s.direction.z, s.direction.x) / (2.0 * kPi) + 0.5;
         const double v = std::acos(s.direction.y) / kPi;
         counts[binOf(std::clamp(int(u * 16 * kParts), 0, 16 * kParts - 1),

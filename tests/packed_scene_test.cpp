@@ -313,3 +313,81 @@ TEST_CASE("lights have the mass of their power, the environment's texels that of
         REQUIRE(glm::vec3(floats(even.environment[i])) == constant.constant);
     }
 }
+
+TEST_CASE("lights without extent follow the local lights, the directional ones first, but for those that "
+          "give none") {
+    using Kind = PunctualLight::Kind;
+    Scene scene;
+    for (const Kind kind : {Kind::Spot, Kind::Directional, Kind::Point, Kind::Point}) {
+        PunctualLight light;
+        light.kind = kind;
+        light.position = {1.0f, 2.0f, 3.0f};
+        light.direction = {0.0f, 0.6f, -0.8f};
+        light.intensity = {4.0f, 5.0f, 6.0f};
+        light.range = kind == Kind::Spot ? 8.0f : 0.0f;
+        light.innerAngle = 0.3f, light.outerAngle = 0.5f;
+        scene.lights.push_back(light);
+    }
+    scene.lights[2].intensity = glm::vec3(0.0f);
+    const PackedScene packed = packScene(scene);
+    CHECK((packed.lightCount == 2 && packed.directionalCount == 1 && packed.firstPunctual == 2));
+    CHECK((packed.needs.punctual == (gpu::kPunctualLocal | gpu::kPunctualDirectional) &&
+           !packed.needs.emitters));
+    CHECK((packed.lightShares.directional == 0.5f && packed.lightShares.local == 0.5f));
+    CHECK((packed.warnings.empty() && packed.lightShares.environment == 0.0f));
+    REQUIRE(packed.lights.size() == 2 + 3 * gpu::kPunctualQuads);
+    for (uint32_t i = 0; i < 2; ++i) {
+        CHECK(packed.lights[i].z == (gpu::kPunctual | (1 + i)));
+        CHECK(floats(packed.lights[i]).w == 0.5f);
+    }
+    const glm::uvec4* sun = &packed.lights[2];
+    CHECK(floats(sun[0]) == glm::vec4(0.0f, -0.6f, 0.8f, 1.0f)); // whence it comes; always kept
+    CHECK(floats(sun[1]) == glm::vec4(4.0f, 5.0f, 6.0f, 1.0f));
+    const glm::uvec4* spot = sun + gpu::kPunctualQuads;
+    CHECK(floats(spot[0]) == glm::vec4(1.0f, 2.0f, 3.0f, 0.125f));
+    CHECK(glm::vec3(floats(spot[1])) == glm::vec3(4.0f, 5.0f, 6.0f));
+    CHECK(std::abs(floats(spot[1]).w * (std::cos(0.3) - std::cos(0.5)) - 1.0) < 1e-6);
+    CHECK(glm::vec3(floats(spot[2])) == glm::vec3(0.0f, 0.6f, -0.8f));
+    CHECK(std::abs(floats(spot[2]).w - std::cos(0.5)) < 1e-6);
+    const glm::uvec4* point = spot + gpu::kPunctualQuads;
+    CHECK(floats(point[0]).w == 0.0f);
+    CHECK((floats(point[1]).w == 1.0f && floats(point[2]).w <= -2.0f)); // within whatever the cosine
+
+    scene.lights = {scene.lights[2]}; // the one that gives none
+    CHECK(packScene(scene).warnings.size() == 1);
+    CHECK(packScene(scene).needs.punctual == 0u);
+}
+
+TEST_CASE("where there are points and spots, cones of the hierarchy have a reach too, neither narrower than "
+          "its own") {
+    Scene scene = test::manyEmitters(20);
+    test::addPunctualLights(scene, 20, 20, 0);
+    const PackedScene packed = packScene(scene);
+    REQUIRE(packed.needs.lightTree);
+    const auto angles = [](uint32_t code) {
+        const glm::dvec2 sines(glm::unpackUnorm2x16(code));
+        return 2.0 * glm::asin(glm::min(sines, glm::dvec2(1.0)));
+    };
+    int spots = 0;
+    for (uint32_t at = packed.lightCount; at < packed.firstPunctual; at += gpu::kLightNodeQuads) {
+        const glm::uvec4& cone = packed.lights[at + 1];
+        if ((cone.w & gpu::kLightLeaf) == 0u) continue;
+        const uint32_t name = packed.lights[cone.w & ~gpu::kLightLeaf].z;
+        const glm::dvec2 found = angles(cone.y);
+        glm::dvec2 own(0.0, 0.5 * reference::kPi);
+        if ((name & gpu::kPunctual) == 0u) {
+            if (scene.materials[name].doubleSided) own.x = reference::kPi;
+        } else {
+            const glm::vec4 record = floats(
+                packed.lights[packed.firstPunctual + (name & ~gpu::kPunctual) * gpu::kPunctualQuads + 2]);
+            const double outer = std::acos(std::max(record.w, -1.0f));
+            own = record.w < -1.0f ? glm::dvec2(reference::kPi, own.y) : glm::dvec2(outer - found.y, found.y);
+            spots += record.w >= -1.0f;
+        }
+        CHECK(found.x >= own.x - 1e-6);
+        CHECK(found.x <= own.x + 1e-3); // the margin, and a code
+        CHECK(found.y >= own.y - 1e-6);
+        CHECK(found.y <= own.y + 1e-4);
+    }
+    CHECK(spots > 10);
+}

@@ -106,6 +106,31 @@ TEST_CASE("a changed scene gives the picture of that state") {
     }
 }
 
+TEST_CASE("lights without extent stay as they are when lamps and the environment change") {
+    const auto lit = [](Scene scene) {
+        for (const auto kind : {PunctualLight::Kind::Directional, PunctualLight::Kind::Point}) {
+            PunctualLight light;
+            light.kind = kind;
+            light.intensity = {2.0f, 1.0f, 0.5f};
+            light.position = {0.3f, 0.2f, 0.4f};
+            scene.lights.push_back(light);
+        }
+        return scene;
+    };
+    CHECK(packScene(lit(twoLamps()), allStates()).lightShares.local == 0.5f);
+    CHECK(packScene(lit(skyAlone()), allStates()).lightShares.local == 1.0f / 3.0f);
+    GpuScene changing = uploaded(lit(twoLamps()), allStates());
+    WavefrontPathTracer tracer(device(), changing, options());
+    for (const Scene& state : {lampsExchanged(), skyAlone(), twoLamps()}) {
+        updateScene(device(), lit(state), changing);
+        const FilmImage film = render(tracer, 2);
+        const GpuScene fresh = uploaded(lit(state), allStates());
+        WavefrontPathTracer freshTracer(device(), fresh, options());
+        CHECK(film.mean == render(freshTracer, 2).mean);
+        CHECK(packScene(lit(state), allStates()).lights.size() == 4 + 1 + 2 * gpu::kPunctualQuads);
+    }
+}
+
 TEST_CASE("a state that was not planned is refused") {
     GpuScene scene = uploaded(twoLamps(), {});
     expectError(ExitCode::Internal, "lamps", [&] { updateScene(device(), lampsExchanged(), scene); });

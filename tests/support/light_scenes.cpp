@@ -41,4 +41,24 @@ Scene manyEmitters(int count) {
     return scene;
 }
 
+void addPunctualLights(Scene& scene, int points, int spots, int directional) {
+    reference::Random random(23);
+    const auto anyDirection = [&] {
+        return glm::vec3(reference::direction(2.0 * random.uniform() - 1.0, 6.28 * random.uniform()));
+    };
+    for (int i = 0; i < points + spots + directional; ++i) {
+        PunctualLight light;
+        light.kind = i < points           ? PunctualLight::Kind::Point
+                     : i < points + spots ? PunctualLight::Kind::Spot
+                                          : PunctualLight::Kind::Directional;
+        light.position = static_cast<float>(1.0 + random.uniform()) * anyDirection();
+        light.direction = glm::normalize(anyDirection() - light.position); // most see the origin
+        light.intensity = glm::vec3(random.uniform(), random.uniform(), random.uniform());
+        light.outerAngle = static_cast<float>(0.2 + 1.3 * random.uniform());
+        light.innerAngle = light.outerAngle * static_cast<float>(random.uniform());
+        if (i % 7 == 3) light.intensity = glm::vec3(0.0f);
+        scene.lights.push_back(light);
+    }
+}
+
 } // namespace irradia::test

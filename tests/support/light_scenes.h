@@ -11,4 +11,7 @@ Environment skyWithSun(int width, int height);
 // Triangles around the origin, of many sizes and powers, some of both sides. Light i's blue is i + 1.
 Scene manyEmitters(int count);
 
+// Points, spots and directional lights around the origin, of many intensities; one in seven gives no light.
+void addPunctualLights(Scene& scene, int points, int spots, int directional);
+
 } // namespace irradia::test

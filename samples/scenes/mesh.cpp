@@ -1,5 +1,6 @@
 #include "mesh.h"
 
+#include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
 namespace irradia::scenes {
@@ -98,6 +99,14 @@ glm::mat4 rotationY(float degrees) {
 }
 glm::mat4 rotationZ(float degrees) {
     return rotation(degrees, {0.0f, 0.0f, 1.0f});
+}
+
+glm::mat4 standing(glm::vec3 from, glm::vec3 to) {
+    const glm::vec3 y = glm::normalize(to - from);
+    const bool isUpright = std::abs(y.y) > 0.9999f;
+    const glm::vec3 x =
+        isUpright ? glm::vec3(1.0f, 0.0f, 0.0f) : glm::normalize(glm::cross(y, glm::vec3(0.0f, 1.0f, 0.0f)));
+    return {glm::vec4(x, 0.0f), glm::vec4(y, 0.0f), glm::vec4(glm::cross(x, y), 0.0f), glm::vec4(from, 1.0f)};
 }
 
 } // namespace irradia::scenes

@@ -48,4 +48,7 @@ glm::mat4 rotationX(float degrees);
 glm::mat4 rotationY(float degrees);
 glm::mat4 rotationZ(float degrees);
 
+// Puts the origin at `from` and the y axis towards `to`, the x axis level.
+glm::mat4 standing(glm::vec3 from, glm::vec3 to);
+
 } // namespace irradia::scenes

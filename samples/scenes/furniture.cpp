@@ -2,6 +2,7 @@
 
 #include "primitives.h"
 #include "random.h"
+#include "sheets.h"
 
 #include <array>
 #include <cmath>

@@ -27,13 +27,11 @@ void appendWord(std::vector<uint8_t>& bytes, size_t value) {
 static_assert(std::endian::native == std::endian::little, "glTF buffers are little-endian");
 
 // Adds to a JSON array that appears with its first element; returns the element's index.
-template <typename Json>
 static int push(Json& gltf, const char* array, Json element) {
     gltf[array].push_back(std::move(element));
     return static_cast<int>(gltf[array].size()) - 1;
 }
 
-template <typename Json>
 static Json numbers(const float* values, size_t count) {
     return Json(std::vector<float>(values, values + count));
 }
@@ -59,8 +57,8 @@ int GlbWriter::addAccessor(const std::vector<T>& values, int componentType, cons
             lower = glm::min(lower, value);
             upper = glm::max(upper, value);
         }
-        accessor["min"] = numbers<Json>(glm::value_ptr(lower), 3);
-        accessor["max"] = numbers<Json>(glm::value_ptr(upper), 3);
+        accessor["min"] = numbers(glm::value_ptr(lower), 3);
+        accessor["max"] = numbers(glm::value_ptr(upper), 3);
     }
     return push(gltf_, "accessors", std::move(accessor));
 }
@@ -68,6 +66,11 @@ int GlbWriter::addAccessor(const std::vector<T>& values, int componentType, cons
 void GlbWriter::useExtension(const char* name) {
     Json& used = gltf_["extensionsUsed"];
     if (std::find(used.begin(), used.end(), name) == used.end()) used.push_back(name);
+}
+
+Json& GlbWriter::extend(Json& material, const char* name) {
+    useExtension(name);
+    return material["extensions"][name];
 }
 
 int GlbWriter::addTexture(const std::string& name, const Rgba8Image& image) {
@@ -89,17 +92,26 @@ int GlbWriter::addMaterial(const GltfMaterial& m) {
         surface["metallicRoughnessTexture"]["index"] = m.metallicRoughnessTexture;
     Json material = {{"name", m.name}, {"pbrMetallicRoughness", std::move(surface)}};
     if (m.normalTexture >= 0) material["normalTexture"]["index"] = m.normalTexture;
-    if (m.specular != 1.0f) {
-        useExtension("KHR_materials_specular");
-        material["extensions"]["KHR_materials_specular"]["specularFactor"] = m.specular;
+    if (m.alphaMode != std::string("OPAQUE")) material["alphaMode"] = m.alphaMode;
+    if (m.doubleSided) material["doubleSided"] = true;
+    if (m.specular != 1.0f) extend(material, "KHR_materials_specular")["specularFactor"] = m.specular;
+    if (m.transmission > 0.0f) {
+        extend(material, "KHR_materials_transmission")["transmissionFactor"] = m.transmission;
+        extend(material, "KHR_materials_ior")["ior"] = m.ior;
+    }
+    if (m.thickness > 0.0f) {
+        Json& volume = extend(material, "KHR_materials_volume");
+        volume["thicknessFactor"] = m.thickness;
+        if (m.attenuationDistance > 0.0f) {
+            volume["attenuationDistance"] = m.attenuationDistance;
+            volume["attenuationColor"] = numbers(glm::value_ptr(m.attenuationColor), 3);
+        }
     }
     const float strength = std::max({m.emission.r, m.emission.g, m.emission.b});
-    if (strength > 1.0f) { // emissiveFactor stays within 0..1
-        useExtension("KHR_materials_emissive_strength");
-        material["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] = strength;
-    }
+    if (strength > 1.0f) // emissiveFactor stays within 0..1
+        extend(material, "KHR_materials_emissive_strength")["emissiveStrength"] = strength;
     const glm::vec3 factor = m.emission / std::max(strength, 1.0f);
-    if (strength > 0.0f) material["emissiveFactor"] = numbers<Json>(glm::value_ptr(factor), 3);
+    if (strength > 0.0f) material["emissiveFactor"] = numbers(glm::value_ptr(factor), 3);
     return push(gltf_, "materials", std::move(material));
 }
 
@@ -111,6 +123,7 @@ int GlbWriter::addMesh(const std::string& name, std::span<const Part> parts) {
         if (!mesh.normals.empty()) attributes["NORMAL"] = addAccessor(mesh.normals, kFloat, "VEC3");
         if (!mesh.uvs.empty()) attributes["TEXCOORD_0"] = addAccessor(mesh.uvs, kFloat, "VEC2");
         if (!mesh.tangents.empty()) attributes["TANGENT"] = addAccessor(mesh.tangents, kFloat, "VEC4");
+        if (!mesh.colors.empty()) attributes["COLOR_0"] = addAccessor(mesh.colors, kFloat, "VEC3");
         primitives.push_back({{"attributes", std::move(attributes)},
                               {"indices", addAccessor(mesh.indices, kUnsignedInt, "SCALAR")},
                               {"material", part.material}});
@@ -123,9 +136,9 @@ int GlbWriter::addMesh(const std::string& name, const Mesh& mesh, int material) 
     return addMesh(name, std::span(&part, 1));
 }
 
-void GlbWriter::placeNode(const std::string& name, const glm::mat4& transform, const char* kind, int index) {
-    Json node = {{"name", name}, {kind, index}};
-    if (transform != glm::mat4(1.0f)) node["matrix"] = numbers<Json>(glm::value_ptr(transform), 16);
+void GlbWriter::placeNode(const std::string& name, const glm::mat4& transform, const char* kind, Json what) {
+    Json node = {{"name", name}, {kind, std::move(what)}};
+    if (transform != glm::mat4(1.0f)) node["matrix"] = numbers(glm::value_ptr(transform), 16);
     push(gltf_, "nodes", std::move(node));
 }
 
@@ -144,6 +157,21 @@ void GlbWriter::addCamera(const std::string& name, glm::vec3 eye, glm::vec3 targ
         push(gltf_, "cameras", Json{{"name", name}, {"type", "perspective"}, {"perspective", lens}});
     const glm::vec3 up(0.0f, 1.0f, 0.0f);
     placeNode(name, glm::affineInverse(glm::lookAt(eye, target, up)), "camera", camera);
+}
+
+void GlbWriter::addSun(const std::string& name, glm::vec3 direction, glm::vec3 irradiance) {
+    const char* extension = "KHR_lights_punctual";
+    useExtension(extension);
+    const float intensity = std::max({irradiance.r, irradiance.g, irradiance.b}); // colours stay within 0..1
+    const glm::vec3 color = irradiance / intensity;
+    const int light = push(gltf_["extensions"][extension], "lights",
+                           Json{{"name", name},
+                                {"type", "directional"},
+                                {"color", numbers(glm::value_ptr(color), 3)},
+                                {"intensity", intensity}});
+    const glm::mat4 placed =
+        glm::affineInverse(glm::lookAt(glm::vec3(0.0f), direction, glm::vec3(0.0f, 1.0f, 0.0f)));
+    placeNode(name, placed, "extensions", {{extension, {{"light", light}}}});
 }
 
 void GlbWriter::write(const std::filesystem::path& file) const {

@@ -3,16 +3,17 @@
 #pragma once
 
 #include "engine/image/image.h"
+#include "json.h"
 #include "mesh.h"
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 
 namespace irradia::scenes {
 
-// What the scenes use of glTF's metallic-roughness material; the defaults are a dull white plastic.
+// What the scenes use of glTF's metallic-roughness material and its extensions; the defaults are a dull white
+// plastic.
 struct GltfMaterial {
     std::string name;
     glm::vec3 baseColor{0.8f};
@@ -23,6 +24,14 @@ struct GltfMaterial {
     int baseColorTexture = -1;
     int metallicRoughnessTexture = -1; // roughness in green, metallic in blue
     int normalTexture = -1;
+    const char* alphaMode = "OPAQUE"; // or "MASK", by the texture's alpha against 1/2, or "BLEND"
+    bool doubleSided = false;
+    float transmission = 0.0f;
+    float ior = 1.5f;
+    // Of what is solid; 0: a thin sheet. Over the attenuation's distance light in it fades to that colour.
+    float thickness = 0.0f;
+    float attenuationDistance = 0.0f; // 0: it does not fade
+    glm::vec3 attenuationColor{1.0f};
 };
 
 class GlbWriter {
@@ -46,18 +55,19 @@ public:
 
     void addCamera(const std::string& name, glm::vec3 eye, glm::vec3 target, float verticalFovDegrees);
 
+    // A lamp at infinity that shines along a direction; its irradiance is that of what faces it.
+    void addSun(const std::string& name, glm::vec3 direction, glm::vec3 irradiance);
+
     void write(const std::filesystem::path& file) const;
 
 private:
-    // Floats of 32 bits print in as few digits as they need; keys keep their order.
-    using Json = nlohmann::basic_json<nlohmann::ordered_map, std::vector, std::string, bool, std::int64_t,
-                                      std::uint64_t, float>;
-
     int addView(std::span<const uint8_t> bytes);
     template <typename T>
     int addAccessor(const std::vector<T>& values, int componentType, const char* type);
-    void placeNode(const std::string& name, const glm::mat4& transform, const char* kind, int index);
+    void placeNode(const std::string& name, const glm::mat4& transform, const char* kind, Json what);
     void useExtension(const char* name);
+    // The extension's object of a material, which then has it.
+    Json& extend(Json& material, const char* name);
 
     Json gltf_ = {{"asset", {{"version", "2.0"}, {"generator", "Irradia make_scenes"}}}};
     std::vector<uint8_t> binary_;

@@ -1,5 +1,6 @@
 // Metals of roughness 0.05 to 0.5 over a tiled floor, lit by a sky through one window. glTF has no
 // environment: the camera file beside the scene names the sky's picture.
+#include "camera_file.h"
 #include "room.h"
 #include "scenes.h"
 #include "textures.h"
@@ -48,19 +49,6 @@ void writeSky(const std::filesystem::path& file) {
     }
     image.setRgb("", pixels);
     writeExr(file, image);
-}
-
-void writeCameraFile(const std::filesystem::path& file, const std::string& sky) {
-    using Json = nlohmann::basic_json<nlohmann::ordered_map, std::vector, std::string, bool, std::int64_t,
-                                      std::uint64_t, float>;
-    const Json json = {{"camera",
-                        {{"position", {kEye.x, kEye.y, kEye.z}},
-                         {"look_at", {kTarget.x, kTarget.y, kTarget.z}},
-                         {"up", {0.0f, 1.0f, 0.0f}},
-                         {"vfov_deg", kFovDegrees}}},
-                       {"env", sky}};
-    const std::string text = json.dump(2) + "\n";
-    writeFileAtomically(file, std::vector<uint8_t>(text.begin(), text.end()));
 }
 
 void addShell(GlbWriter& glb) {
@@ -144,7 +132,7 @@ void writeGlossyRoom(const std::filesystem::path& folder) {
     glb.addCamera("camera", kEye, kTarget, kFovDegrees);
     glb.write(folder / "glossy-room.glb");
     writeSky(folder / "glossy-room-sky.exr");
-    writeCameraFile(folder / "glossy-room.json", "glossy-room-sky.exr");
+    writeCameraFile(folder / "glossy-room.json", {kEye, kTarget, kFovDegrees}, "glossy-room-sky.exr");
 }
 
 } // namespace irradia::scenes

@@ -13,6 +13,7 @@ void makeScenes(const std::filesystem::path& folder) {
     scenes::writeGlossyRoom(folder);
     scenes::writeLampGallery(folder);
     scenes::writeInterior(folder);
+    scenes::writeGreenhouse(folder);
     scenes::writeFurnaceSphere(folder);
 }
 

@@ -1,5 +1,6 @@
 #include "mesh.h"
 
+#include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
 namespace irradia::scenes {
@@ -21,12 +22,37 @@ void Mesh::addQuad(uint32_t a, uint32_t b, uint32_t c, uint32_t d) {
     addTriangle(a, c, d);
 }
 
+void Mesh::addGrid(uint32_t first, uint32_t columns, uint32_t rows) {
+    for (uint32_t row = 0; row < rows; row++) {
+        for (uint32_t column = 0; column < columns; column++) {
+            const uint32_t a = first + row * (columns + 1) + column;
+            const uint32_t d = a + columns + 1;
+            addQuad(a, a + 1, d + 1, d);
+        }
+    }
+}
+
+void Mesh::addFlatQuad(const std::array<glm::vec3, 4>& p) {
+    const glm::vec3 n = glm::normalize(glm::cross(p[2] - p[0], p[3] - p[1]));
+    const uint32_t first = addVertex(p[0], n, {0.0f, 1.0f});
+    addVertex(p[1], n, {1.0f, 1.0f});
+    addVertex(p[2], n, {1.0f, 0.0f});
+    addVertex(p[3], n, {0.0f, 0.0f});
+    addQuad(first, first + 1, first + 2, first + 3);
+}
+
+Mesh& Mesh::paint(glm::vec3 color) {
+    colors.assign(positions.size(), color);
+    return *this;
+}
+
 Mesh& Mesh::append(const Mesh& other, const glm::mat4& transform) {
     const auto first = static_cast<uint32_t>(positions.size());
     const glm::mat3 forNormals = glm::transpose(glm::inverse(glm::mat3(transform)));
     for (glm::vec3 p : other.positions) positions.push_back(glm::vec3(transform * glm::vec4(p, 1.0f)));
     for (glm::vec3 n : other.normals) normals.push_back(glm::normalize(forNormals * n));
     uvs.insert(uvs.end(), other.uvs.begin(), other.uvs.end());
+    colors.insert(colors.end(), other.colors.begin(), other.colors.end());
     for (uint32_t index : other.indices) indices.push_back(first + index);
     return *this;
 }
@@ -73,6 +99,14 @@ glm::mat4 rotationY(float degrees) {
 }
 glm::mat4 rotationZ(float degrees) {
     return rotation(degrees, {0.0f, 0.0f, 1.0f});
+}
+
+glm::mat4 standing(glm::vec3 from, glm::vec3 to) {
+    const glm::vec3 y = glm::normalize(to - from);
+    const bool isUpright = std::abs(y.y) > 0.9999f;
+    const glm::vec3 x =
+        isUpright ? glm::vec3(1.0f, 0.0f, 0.0f) : glm::normalize(glm::cross(y, glm::vec3(0.0f, 1.0f, 0.0f)));
+    return {glm::vec4(x, 0.0f), glm::vec4(y, 0.0f), glm::vec4(glm::cross(x, y), 0.0f), glm::vec4(from, 1.0f)};
 }
 
 } // namespace irradia::scenes

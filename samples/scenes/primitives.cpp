@@ -10,28 +10,6 @@ namespace irradia::scenes {
 
 namespace {
 
-// Rows of vertices, (columns + 1) wide, from `first` on; quads face the side where columns run right and rows
-// up.
-void connectGrid(Mesh& mesh, uint32_t first, uint32_t columns, uint32_t rows) {
-    for (uint32_t row = 0; row < rows; row++) {
-        for (uint32_t column = 0; column < columns; column++) {
-            const uint32_t a = first + row * (columns + 1) + column;
-            const uint32_t d = a + columns + 1;
-            mesh.addQuad(a, a + 1, d + 1, d);
-        }
-    }
-}
-
-// Four corners, counter-clockwise from the lower left, with their flat normal.
-void addFlatQuad(Mesh& mesh, const std::array<glm::vec3, 4>& p) {
-    const glm::vec3 n = glm::normalize(glm::cross(p[2] - p[0], p[3] - p[1]));
-    const uint32_t first = mesh.addVertex(p[0], n, {0.0f, 1.0f});
-    mesh.addVertex(p[1], n, {1.0f, 1.0f});
-    mesh.addVertex(p[2], n, {1.0f, 0.0f});
-    mesh.addVertex(p[3], n, {0.0f, 0.0f});
-    mesh.addQuad(first, first + 1, first + 2, first + 3);
-}
-
 // Where a rounded box's grid lies along one axis: equal angles of the rounding, one step over the flat
 // middle.
 std::vector<float> roundedTicks(float half, float radius, uint32_t segments) {
@@ -51,19 +29,19 @@ std::vector<float> roundedTicks(float half, float radius, uint32_t segments) {
 
 Mesh quad(glm::vec3 corner, glm::vec3 across, glm::vec3 up, glm::vec2 repeat) {
     Mesh mesh;
-    addFlatQuad(mesh, {corner, corner + across, corner + across + up, corner + up});
+    mesh.addFlatQuad({corner, corner + across, corner + across + up, corner + up});
     for (glm::vec2& uv : mesh.uvs) uv *= repeat;
     return mesh;
 }
 
 Mesh box(glm::vec3 a, glm::vec3 b) {
     Mesh mesh;
-    addFlatQuad(mesh, {{{a.x, a.y, b.z}, {b.x, a.y, b.z}, {b.x, b.y, b.z}, {a.x, b.y, b.z}}}); // +z
-    addFlatQuad(mesh, {{{b.x, a.y, a.z}, {a.x, a.y, a.z}, {a.x, b.y, a.z}, {b.x, b.y, a.z}}}); // -z
-    addFlatQuad(mesh, {{{b.x, a.y, b.z}, {b.x, a.y, a.z}, {b.x, b.y, a.z}, {b.x, b.y, b.z}}}); // +x
-    addFlatQuad(mesh, {{{a.x, a.y, a.z}, {a.x, a.y, b.z}, {a.x, b.y, b.z}, {a.x, b.y, a.z}}}); // -x
-    addFlatQuad(mesh, {{{a.x, b.y, b.z}, {b.x, b.y, b.z}, {b.x, b.y, a.z}, {a.x, b.y, a.z}}}); // +y
-    addFlatQuad(mesh, {{{a.x, a.y, a.z}, {b.x, a.y, a.z}, {b.x, a.y, b.z}, {a.x, a.y, b.z}}}); // -y
+    mesh.addFlatQuad({{{a.x, a.y, b.z}, {b.x, a.y, b.z}, {b.x, b.y, b.z}, {a.x, b.y, b.z}}}); // +z
+    mesh.addFlatQuad({{{b.x, a.y, a.z}, {a.x, a.y, a.z}, {a.x, b.y, a.z}, {b.x, b.y, a.z}}}); // -z
+    mesh.addFlatQuad({{{b.x, a.y, b.z}, {b.x, a.y, a.z}, {b.x, b.y, a.z}, {b.x, b.y, b.z}}}); // +x
+    mesh.addFlatQuad({{{a.x, a.y, a.z}, {a.x, a.y, b.z}, {a.x, b.y, b.z}, {a.x, b.y, a.z}}}); // -x
+    mesh.addFlatQuad({{{a.x, b.y, b.z}, {b.x, b.y, b.z}, {b.x, b.y, a.z}, {a.x, b.y, a.z}}}); // +y
+    mesh.addFlatQuad({{{a.x, a.y, a.z}, {b.x, a.y, a.z}, {b.x, a.y, b.z}, {a.x, a.y, b.z}}}); // -y
     return mesh;
 }
 
@@ -89,7 +67,7 @@ Mesh roundedBox(glm::vec3 half, float radius, uint32_t segments) {
                     mesh.addVertex(inner + radius * normal, normal, uv);
                 }
             }
-            connectGrid(mesh, first, steps, steps);
+            mesh.addGrid(first, steps, steps);
         }
     }
     return mesh;
@@ -126,7 +104,7 @@ Mesh lathe(std::span<const glm::vec2> outline, uint32_t slices) {
                                {static_cast<float>(slice) / static_cast<float>(slices), v});
             }
         }
-        connectGrid(mesh, first, slices, 1);
+        mesh.addGrid(first, slices, 1);
     }
     return mesh;
 }
@@ -207,46 +185,6 @@ Mesh octahedron(float radius) {
     return mesh;
 }
 
-Mesh sheet(const std::function<glm::vec3(float, float)>& surface, uint32_t nu, uint32_t nv, float thickness) {
-    const auto normalAt = [&](float u, float v) {
-        const float h = 1e-3f;
-        return glm::normalize(
-            glm::cross(surface(u + h, v) - surface(u - h, v), surface(u, v + h) - surface(u, v - h)));
-    };
-    Mesh mesh;
-    for (float side : {1.0f, -1.0f}) {
-        const auto first = static_cast<uint32_t>(mesh.positions.size());
-        for (uint32_t row = 0; row <= nv; row++) {
-            for (uint32_t column = 0; column <= nu; column++) {
-                const float u =
-                    static_cast<float>(side > 0.0f ? column : nu - column) / static_cast<float>(nu);
-                const float v = static_cast<float>(row) / static_cast<float>(nv);
-                const glm::vec3 n = side * normalAt(u, v);
-                mesh.addVertex(surface(u, v) + 0.5f * thickness * n, n, {u, 1.0f - v});
-            }
-        }
-        connectGrid(mesh, first, nu, nv);
-    }
-    // The rim joins front (column, row) with the back's mirrored column.
-    const uint32_t back = (nu + 1) * (nv + 1);
-    const auto front = [&](uint32_t column, uint32_t row) { return mesh.positions[row * (nu + 1) + column]; };
-    const auto behind = [&](uint32_t column, uint32_t row) {
-        return mesh.positions[back + row * (nu + 1) + nu - column];
-    };
-    const auto rim = [&](uint32_t c0, uint32_t r0, uint32_t c1, uint32_t r1) {
-        addFlatQuad(mesh, {behind(c0, r0), behind(c1, r1), front(c1, r1), front(c0, r0)});
-    };
-    for (uint32_t c = 0; c < nu; c++) {
-        rim(c, 0, c + 1, 0);
-        rim(c + 1, nv, c, nv);
-    }
-    for (uint32_t r = 0; r < nv; r++) {
-        rim(0, r + 1, 0, r);
-        rim(nu, r, nu, r + 1);
-    }
-    return mesh;
-}
-
 Mesh wallWithOpening(Rectangle wall, Rectangle opening, float thickness) {
     const auto corners = [](Rectangle r, float z) {
         return std::array<glm::vec3, 4>{
@@ -257,10 +195,10 @@ Mesh wallWithOpening(Rectangle wall, Rectangle opening, float thickness) {
     Mesh mesh;
     for (size_t i = 0; i < 4; i++) {
         const size_t next = (i + 1) % 4;
-        addFlatQuad(mesh, {outer[i], outer[next], inner[next], inner[i]});
-        addFlatQuad(mesh, {outerBack[next], outerBack[i], innerBack[i], innerBack[next]});
-        addFlatQuad(mesh, {outerBack[i], outerBack[next], outer[next], outer[i]});
-        addFlatQuad(mesh, {inner[i], inner[next], innerBack[next], innerBack[i]});
+        mesh.addFlatQuad({outer[i], outer[next], inner[next], inner[i]});
+        mesh.addFlatQuad({outerBack[next], outerBack[i], innerBack[i], innerBack[next]});
+        mesh.addFlatQuad({outerBack[i], outerBack[next], outer[next], outer[i]});
+        mesh.addFlatQuad({inner[i], inner[next], innerBack[next], innerBack[i]});
     }
     return mesh;
 }

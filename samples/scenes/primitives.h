@@ -4,7 +4,6 @@
 
 #include "mesh.h"
 
-#include <functional>
 #include <span>
 
 namespace irradia::scenes {
@@ -34,10 +33,6 @@ Mesh icosphere(uint32_t levels);
 
 // Eight flat triangles about the origin.
 Mesh octahedron(float radius);
-
-// Cloth, leaves: the surface p(u, v), 0..1 each, facing cross(dp/du, dp/dv), as a solid of the given
-// thickness; 4 nu nv + 4 (nu + nv) triangles.
-Mesh sheet(const std::function<glm::vec3(float, float)>& surface, uint32_t nu, uint32_t nv, float thickness);
 
 struct Rectangle {
     glm::vec2 lower{0.0f};

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <glm/gtc/constants.hpp>
 
 namespace irradia::scenes {
 
@@ -24,17 +25,21 @@ glm::vec3 asSrgb(glm::vec3 linear) {
 }
 
 // Fills a picture with values 0..1 from f(u, v) at texel centres, v downwards.
-Rgba8Image paint(int width, int height, const std::function<glm::vec3(float, float)>& f) {
+Rgba8Image paintRgba(int width, int height, const std::function<glm::vec4(float, float)>& f) {
     Rgba8Image image{width, height, {}};
     for (int y = 0; y < height; y++) {
         for (int x = 0; x < width; x++) {
-            const glm::vec3 value = f((static_cast<float>(x) + 0.5f) / static_cast<float>(width),
+            const glm::vec4 value = f((static_cast<float>(x) + 0.5f) / static_cast<float>(width),
                                       (static_cast<float>(y) + 0.5f) / static_cast<float>(height));
-            for (float channel : {value.r, value.g, value.b}) image.pixels.push_back(toByte(channel));
-            image.pixels.push_back(255);
+            for (float channel : {value.r, value.g, value.b, value.a})
+                image.pixels.push_back(toByte(channel));
         }
     }
     return image;
+}
+
+Rgba8Image paint(int width, int height, const std::function<glm::vec3(float, float)>& f) {
+    return paintRgba(width, height, [&](float u, float v) { return glm::vec4(f(u, v), 1.0f); });
 }
 
 float latticeValue(int x, int y, uint32_t seed) {
@@ -65,6 +70,35 @@ float tileHeight(float u, float v) {
 uint32_t tileNumber(float u, float v) {
     const glm::ivec2 tile(glm::floor(glm::fract(glm::vec2(u, v)) * kTilesAcross));
     return static_cast<uint32_t>(tile.x + 4 * tile.y);
+}
+
+// A leaf's point: along it from stalk to tip, across it from the middle vein out, -1..1, and along its side
+// veins, which run outwards and up: whole numbers are veins.
+struct LeafPoint {
+    float along, across, beside;
+};
+
+LeafPoint leafPoint(float u, float v, float sideVeins) {
+    const float along = 1.0f - v, across = 2.0f * u - 1.0f;
+    return {along, across, sideVeins * (along - 0.22f * std::abs(across))};
+}
+
+// Distance to the nearest whole number.
+float fromWhole(float x) {
+    return std::abs(x - std::floor(x + 0.5f));
+}
+
+// Coverage of a point that lies `inside` an outline, in widths of the leaf, over two texels.
+float edge(float inside, int size) {
+    return glm::clamp(0.5f + 0.5f * inside * static_cast<float>(size), 0.0f, 1.0f);
+}
+
+glm::vec3 leafColor(LeafPoint p, glm::vec3 blade, glm::vec3 vein) {
+    const float out = std::abs(p.across);
+    const float middle = 1.0f - glm::smoothstep(0.02f, 0.07f, out + 0.03f * p.along);
+    const float side = 1.0f - glm::smoothstep(0.03f, 0.1f, fromWhole(p.beside));
+    const float mottled = 0.8f + 0.2f * noise(0.5f * p.across + 0.5f, p.along, {9, 13}, 41);
+    return glm::mix(blade * mottled, vein, std::max(middle, 0.55f * side * (1.0f - 0.6f * out)));
 }
 
 } // namespace
@@ -113,6 +147,49 @@ Rgba8Image rug(int size, glm::vec3 ground, glm::vec3 figure) {
         const bool inRhomb = edge > 0.1f && (rhomb < 0.2f || (rhomb > 0.32f && rhomb < 0.4f));
         const float weave = 0.85f + 0.15f * noise(u, v, {128, 128}, 21);
         return asSrgb((inBorder || inRhomb ? figure : ground) * weave);
+    });
+}
+
+Rgba8Image bricks(int size, glm::vec3 wash, glm::vec3 clay) {
+    return paint(size, size, [&](float u, float v) {
+        const float course = std::floor(v * 8.0f);
+        const float along = u * 4.0f + 0.5f * std::fmod(course, 2.0f);
+        const glm::vec2 fromCentre = glm::abs(glm::fract(glm::vec2(along, v * 8.0f)) - 0.5f);
+        const float joint = std::max(glm::smoothstep(0.46f, 0.49f, fromCentre.x),
+                                     glm::smoothstep(0.42f, 0.48f, fromCentre.y));
+        const float brick =
+            latticeValue(static_cast<int>(std::floor(along)) % 4, static_cast<int>(course), 51);
+        const float worn = glm::smoothstep(0.55f, 0.75f, noise(u, v, {11, 17}, 52) * 0.6f + brick * 0.4f);
+        const float grain = 0.88f + 0.12f * noise(u, v, {64, 64}, 53);
+        return asSrgb(glm::mix(wash, clay * (0.8f + 0.4f * brick), worn) * grain * (1.0f - 0.35f * joint));
+    });
+}
+
+Rgba8Image toothedLeaf(int size, glm::vec3 blade, glm::vec3 vein) {
+    return paintRgba(size, size, [&](float u, float v) {
+        const LeafPoint p = leafPoint(u, v, 8.0f);
+        const float teeth = 0.07f * (glm::fract(p.beside * 2.0f) - 0.5f);
+        const float half = 0.9f * std::pow(std::sin(glm::pi<float>() * std::pow(p.along, 0.75f)), 0.8f);
+        return glm::vec4(asSrgb(leafColor(p, blade, vein)), edge(half + teeth - std::abs(p.across), size));
+    });
+}
+
+Rgba8Image slitLeaf(int size, glm::vec3 blade, glm::vec3 vein) {
+    return paintRgba(size, size, [&](float u, float v) {
+        const LeafPoint p = leafPoint(u, v, 6.0f);
+        const float out = std::abs(p.across);
+        const float half = 0.96f * std::pow(std::sin(glm::pi<float>() * std::pow(p.along, 0.6f)), 0.6f);
+        const float beside = 0.5f - fromWhole(p.beside); // 0 midway between two side veins
+        const float slit = std::max(0.5f * half - out, beside * 0.5f - 0.12f * (out - 0.3f * half));
+        const float hole = glm::length(glm::vec2((out - 0.3f) * 0.7f, beside * 0.35f)) - 0.055f;
+        return glm::vec4(asSrgb(leafColor(p, blade, vein)), edge(std::min({half - out, slit, hole}), size));
+    });
+}
+
+Rgba8Image net(int size, glm::vec3 color) {
+    return paintRgba(size, size, [&](float u, float v) {
+        const bool isBand = fromWhole(6.0f * u) < 0.34f || fromWhole(6.0f * v) < 0.22f;
+        return glm::vec4(asSrgb(color * (0.9f + 0.1f * noise(u, v, {48, 48}, 61))), isBand ? 0.9f : 0.3f);
     });
 }
 

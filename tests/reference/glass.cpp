@@ -64,6 +64,12 @@ Vec3 Glass::transmitted(const Vec3& v, const Vec3& l) const {
     return cosVH * -cosLH * ggx_.distribution(h) * visibility / (spread * spread) * tint;
 }
 
+double Glass::returnedShare() const {
+    if (!isSolid()) return 1.0;
+    const double indices = normalReflectance(g_.eta), f0 = std::min(maxComponent(p_.f0), 1.0);
+    return p_.specular * (f0 <= indices ? f0 / indices : (1.0 - f0) / (1.0 - indices));
+}
+
 Vec3 Glass::multiple(const Vec3& v, const Vec3& l) const {
     if (!scattersManyTimes()) return Vec3(0.0);
     const double ratio = isSolid() ? g_.eta * g_.eta : 1.0; // n_l^2 / n_v^2
@@ -71,7 +77,7 @@ Vec3 Glass::multiple(const Vec3& v, const Vec3& l) const {
         kPi * (1.0 - energyHere_->average(ggx_.alpha) + ratio * (1.0 - energyThere_->average(ggx_.alpha)));
     const double lostV = 1.0 - energyHere_->albedo(v.z, ggx_.alpha);
     const double lostL = 1.0 - (l.z > 0.0 ? energyHere_ : energyThere_)->albedo(std::abs(l.z), ggx_.alpha);
-    const double scale = (1.0 - p_.metallic) * g_.transmission * lostV * lostL / total;
+    const double scale = returnedShare() * (1.0 - p_.metallic) * g_.transmission * lostV * lostL / total;
     return l.z > 0.0 ? Vec3(scale) : scale * p_.baseColor;
 }
 
@@ -94,7 +100,8 @@ Glass::Chances Glass::chances(double cosV) const {
     const double tau = isClear() ? 0.0 : g_.transmission;
     Chances c{dielectric * (1.0 - g_.transmission) * through,
               dielectric * (luminance(f) + tau * through) + p_.metallic * luminance(metal(cosV)), 0.0};
-    if (scattersManyTimes()) c.multiple = dielectric * tau * (1.0 - energyHere_->albedo(cosV, ggx_.alpha));
+    if (scattersManyTimes())
+        c.multiple = returnedShare() * dielectric * tau * (1.0 - energyHere_->albedo(cosV, ggx_.alpha));
     const double sum = std::max(c.lambert + c.microfacet + c.multiple, 1e-12);
     const bool hasLambert = dielectric * (1.0 - g_.transmission) > 0.0;
     c = {hasLambert ? std::max(c.lambert, 0.1 * sum) : 0.0, std::max(c.microfacet, 0.1 * sum), c.multiple};

@@ -54,6 +54,11 @@ public:
     // Factor of the Lambert lobe that keeps it within what reflection leaves, at cosine mu.
     double mend(double mu) const;
 
+    // Of what single scattering loses, the share that scattering many times gives back: E is that of w = 1
+    // and the indices' F0, and linear in F; what F is besides gives nothing back, which keeps the sum
+    // below 1. Of sheets all.
+    double returnedShare() const;
+
 private:
     struct Chances {
         double lambert, microfacet, multiple; // sum 1

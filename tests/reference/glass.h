@@ -70,7 +70,6 @@ private:
 
     Chances chances(double cosV) const;
     double reflectionChance(double cosVH) const; // of a microfacet rather than transmission
-    double sameSideChance() const;               // of scattering many times
 
     Vec3 lambert(const Vec3& v, const Vec3& l) const;
     Vec3 reflected(const Vec3& v, const Vec3& l) const;
@@ -85,6 +84,9 @@ private:
     DielectricFresnel fresnel_;
     const GlassEnergy* energyHere_;  // on V's side
     const GlassEnergy* energyThere_; // on the other
+    // What scattering many times gives to each side, as shares of light: 1 - Eavg, the other side's times
+    // (n_l / n_v)^2. Their sum times pi is N / n_v^2.
+    double lostHere_ = 0.0, lostThere_ = 0.0;
 };
 
 } // namespace irradia::reference

@@ -243,7 +243,9 @@ TEST_CASE("attributes of quantised meshes, normalised or not; others are refused
         const int view = builder.view(std::vector<float>(12, 0.0f));
         const int accessor = builder.accessor(view, type, 3, shape);
         builder.json["accessors"][accessor]["normalized"] = normalised;
-        builder.json["meshes"][0]["primitives"][0]["attributes"][name] = accessor;
+        Json& attributes = builder.json["meshes"][0]["primitives"][0]["attributes"];
+        attributes[name] = accessor;
+        if (name == "JOINTS_0") attributes["WEIGHTS_0"] = builder.vec4(std::vector<glm::vec4>(3));
         builder.json["extensionsUsed"] = builder.json["extensionsRequired"] = {"KHR_mesh_quantization"};
         if (isGood)
             CHECK_NOTHROW(load(builder));

@@ -159,7 +159,7 @@ TEST_CASE("info counts what a scene holds, as its nodes place it") {
     CHECK(info["cameras"][0]["name"] == "door");
     CHECK(std::abs(info["cameras"][0]["vfov_deg"].get<double>() - 28.6479) < 1e-4);
     CHECK(info["bounds"] == Json({{"lower", {0, 0, 0}}, {"upper", {2, 2, 5}}}));
-    CHECK(info["not_rendered"] == Json({{"animations", 0}, {"skins", 1}, {"morph_targets", 1}}));
+    CHECK(info["at_rest"] == Json({{"animations", 0}, {"skins", 1}, {"morph_targets", 1}}));
     std::map<std::string, std::string> support;
     for (const Json& extension : info["extensions"]) support[extension["name"]] = extension["support"];
     CHECK(support == std::map<std::string, std::string>{{"KHR_materials_ior", "rendered"},

@@ -2,6 +2,8 @@
 
 #include "engine/scene/gltf/assemble.h"
 #include "engine/scene/gltf/features.h"
+#include "engine/scene/gltf/glb.h"
+#include "engine/scene/gltf/instancing.h"
 #include "engine/scene/gltf/nodes.h"
 #include "engine/scene/gltf/parse.h"
 #include "engine/scene/gltf/validate.h"
@@ -48,7 +50,8 @@ void countModel(const tinygltf::Model& model, SceneFacts& facts) {
             facts.colouredPrimitives += primitive.attributes.contains("COLOR_0") ? 1 : 0;
     }
     for (const gltf::Placement& placement : gltf::placeNodes(model))
-        facts.instances += model.nodes[placement.node].mesh >= 0 ? 1 : 0;
+        if (const tinygltf::Node& node = model.nodes[placement.node]; node.mesh >= 0)
+            facts.instances += gltf::Instancing(model, node).count();
 }
 
 void countMaterials(const Scene& scene, SceneFacts& facts) {

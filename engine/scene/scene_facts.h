@@ -42,7 +42,7 @@ struct SceneFacts {
     glm::dvec3 lower{0.0}, upper{0.0}; // of all triangles, where the file has them
 
     std::vector<ExtensionFact> extensions;
-    uint64_t animations = 0, skins = 0, morphTargets = 0; // not rendered
+    uint64_t animations = 0, skins = 0, morphTargets = 0; // all at rest
     std::vector<std::string> warnings;
 };
 

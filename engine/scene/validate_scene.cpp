@@ -26,14 +26,14 @@ void warnOfLostTriangles(const gltf::SourceFile& source, const SceneNotes& notes
 
 void readMeshes(const gltf::SourceFile& source, const tinygltf::Model& model, const Scene& scene) {
     for (size_t i = 0; i < model.meshes.size(); ++i)
-        gltf::readMesh(source, model, static_cast<int>(i), scene);
+        gltf::readMesh(source, model, static_cast<int>(i), gltf::poseOf(model.meshes[i]), scene);
 }
 
 // What can only be told in reading, of as much as is sound.
 void readThrough(const gltf::SourceFile& source, const tinygltf::Model& model, const gltf::Soundness& sound) {
     Scene scene;
     if (!sound.data || !sound.materials) return gltf::noteIgnoredFeatures(source, model);
-    if (sound.meshes && sound.nodes && sound.cameras && sound.lights) {
+    if (sound.meshes && sound.nodes && sound.cameras && sound.skins && sound.lights) {
         scene = gltf::assembleScene(source, model);
         warnOfLostTriangles(source, scene.notes);
     } else {

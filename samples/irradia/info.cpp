@@ -4,6 +4,7 @@
 #include "engine/error.h"
 #include "engine/image/read_file.h"
 #include "engine/scene/gltf/foreign.h"
+#include "engine/scene/gltf/glb.h"
 #include "engine/scene/gltf/json_guard.h"
 #include <algorithm>
 #include <fstream>

@@ -74,7 +74,7 @@ std::string materials(const SceneFacts& facts) {
     return kinds.empty() ? text : fmt::format("{}, of them {}", text, fmt::join(kinds, ", "));
 }
 
-std::vector<std::string> notRendered(const SceneFacts& facts) {
+std::vector<std::string> atRest(const SceneFacts& facts) {
     std::vector<std::string> lines;
     if (facts.animations > 0) lines.push_back(counted(facts.animations, "animation"));
     if (facts.skins > 0) lines.push_back(counted(facts.skins, "skin"));
@@ -106,8 +106,8 @@ void printSheet(const std::filesystem::path& file, const SceneFacts& facts) {
     sheet.add("triangles", triangles(facts));
     sheet.add("vertices", fmt::format("{}", facts.vertices));
     sheet.add("meshes",
-              fmt::format("{}, {}, placed by {}", facts.meshes, counted(facts.primitives, "primitive"),
-                          counted(facts.instances, "node")));
+              fmt::format("{}, {}, standing {}", facts.meshes, counted(facts.primitives, "primitive"),
+                          counted(facts.instances, "time")));
     sheet.add("materials", materials(facts));
     if (facts.colouredPrimitives > 0)
         sheet.add("vertex colours", fmt::format("of {}", counted(facts.colouredPrimitives, "primitive")));
@@ -127,7 +127,7 @@ void printSheet(const std::filesystem::path& file, const SceneFacts& facts) {
         sheet.add("bounds", {"from " + describe(facts.lower), "to   " + describe(facts.upper)});
     for (const ExtensionFact& extension : facts.extensions) extensions.push_back(describe(extension));
     sheet.add("extensions", extensions);
-    sheet.add("not rendered", notRendered(facts));
+    sheet.add("at rest", atRest(facts));
     sheet.add("warnings", facts.warnings);
     sheet.print();
 }
@@ -194,7 +194,7 @@ ordered_json toJson(const std::filesystem::path& file, const SceneFacts& facts) 
           {"directional", facts.directionalLights},
           {"ignored", facts.extensionLights}}},
         {"bounds", {{"lower", toJson(facts.lower)}, {"upper", toJson(facts.upper)}}},
-        {"not_rendered",
+        {"at_rest",
          {{"animations", facts.animations}, {"skins", facts.skins}, {"morph_targets", facts.morphTargets}}}};
     json.update(listsOf(facts));
     json["warnings"] = facts.warnings;

@@ -142,6 +142,22 @@ glm::vec4 AccessorView::element(uint64_t i) const {
     return value;
 }
 
+glm::uvec4 AccessorView::integers(uint64_t i) const {
+    glm::uvec4 value(0u);
+    const uint8_t* from = address(i);
+    if (!from) return value;
+    const uint64_t size = componentSize(accessor_.componentType);
+    for (int c = 0; c < components_; ++c)
+        value[c] = unsignedInteger(from + static_cast<uint64_t>(c) * size, accessor_.componentType);
+    return value;
+}
+
+glm::mat4 AccessorView::matrix(uint64_t i) const {
+    glm::mat4 value(0.0f);
+    if (const uint8_t* from = address(i)) std::memcpy(&value, from, sizeof value);
+    return value;
+}
+
 uint32_t AccessorView::index(uint64_t i) const {
     const uint8_t* from = address(i);
     return from ? unsignedInteger(from, accessor_.componentType) : 0;

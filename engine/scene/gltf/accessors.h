@@ -25,6 +25,12 @@ public:
     // The first four components as floats, normalised if the accessor says so; missing ones are 0.
     glm::vec4 element(uint64_t i) const;
 
+    // The same of the first four components of unsigned integers, as they stand.
+    glm::uvec4 integers(uint64_t i) const;
+
+    // A matrix of 4 x 4 floats.
+    glm::mat4 matrix(uint64_t i) const;
+
     // A scalar of an unsigned type.
     uint32_t index(uint64_t i) const;
 

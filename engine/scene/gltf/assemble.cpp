@@ -5,9 +5,9 @@
 #include "engine/scene/gltf/lights.h"
 #include "engine/scene/gltf/materials.h"
 #include "engine/scene/gltf/nodes.h"
+#include "engine/scene/gltf/shown_meshes.h"
 #include "engine/scene/scene_origin.h"
-#include <cmath>
-#include <map>
+#include <algorithm>
 
 namespace irradia::gltf {
 namespace {
@@ -17,63 +17,59 @@ constexpr uint64_t kMaxTriangles = 1ull << 25;
 constexpr uint64_t kMaxVertices = 1ull
                                   << 28; // named by primitives, before those no triangle uses are left out
 
+struct MeshSize {
+    uint64_t triangles = 0;
+    uint64_t vertices = 0; // to be read, those of morph targets included
+};
+
+MeshSize sizeOf(const tinygltf::Model& model, const tinygltf::Mesh& mesh) {
+    MeshSize size;
+    for (const tinygltf::Primitive& primitive : mesh.primitives) {
+        size.triangles += triangleCount(model, primitive);
+        size.vertices += vertexCount(model, primitive) * (1 + primitive.targets.size());
+    }
+    return size;
+}
+
 // Counts before anything is built.
 void refuseTooMany(const SourceFile& source, const tinygltf::Model& model,
                    const std::vector<Placement>& nodes) {
-    std::vector<uint64_t> meshTriangles;
+    std::vector<MeshSize> sizes;
     uint64_t vertices = 0, triangles = 0;
-    for (const tinygltf::Mesh& mesh : model.meshes) {
-        uint64_t& count = meshTriangles.emplace_back(0);
-        for (const tinygltf::Primitive& primitive : mesh.primitives) {
-            count += triangleCount(model, primitive);
-            vertices += vertexCount(model, primitive);
-        }
-    }
-    if (vertices > kMaxVertices)
-        source.refuse("the meshes have more than the {} vertices allowed", kMaxVertices);
+    for (const tinygltf::Mesh& mesh : model.meshes)
+        vertices += sizes.emplace_back(sizeOf(model, mesh)).vertices;
+    const auto capped = [](uint64_t count) { return std::min(count, kMaxTriangles + 1); };
     for (const Placement& placement : nodes) {
         const tinygltf::Node& node = model.nodes[placement.node];
-        if (node.mesh >= 0) triangles += meshTriangles[node.mesh];
+        if (node.mesh < 0) continue;
+        const MeshSize& size = sizes[node.mesh];
+        if (node.skin >= 0 || !node.weights.empty()) vertices += size.vertices; // read for this node alone
+        triangles += capped(size.triangles) * capped(Instancing(model, node).count());
         if (triangles > kMaxTriangles)
             source.refuse("{}: with it the scene has more than the {} triangles allowed",
                           label("node", placement.node, node.name), kMaxTriangles);
     }
-}
-
-// Read once, placed by every node that names it. A node without a mesh has mesh -1, without primitives.
-using Meshes = std::map<int, std::vector<PrimitiveMesh>>;
-
-Meshes readMeshes(const SourceFile& source, const tinygltf::Model& model, const std::vector<Placement>& nodes,
-                  const Scene& scene) {
-    Meshes meshes{{-1, {}}};
-    for (const Placement& placement : nodes) {
-        const int mesh = model.nodes[placement.node].mesh;
-        if (!meshes.contains(mesh)) meshes[mesh] = readMesh(source, model, mesh, scene);
-    }
-    return meshes;
+    if (vertices > kMaxVertices)
+        source.refuse("the meshes have more than the {} vertices allowed", kMaxVertices);
 }
 
 // World positions of vertices, or of every k-th where there are more than a median needs.
-std::vector<glm::dvec3> somePositions(const tinygltf::Model& model, const std::vector<Placement>& nodes,
-                                      const Meshes& meshes) {
+std::vector<glm::dvec3> somePositions(const ShownMeshes& meshes) {
     constexpr uint64_t kMost = 1u << 20;
     uint64_t count = 0;
-    for (const Placement& placement : nodes)
-        for (const PrimitiveMesh& primitive : meshes.at(model.nodes[placement.node].mesh))
-            count += primitive.vertices.size();
+    meshes.forEach(
+        [&](const PrimitiveMesh& primitive, const glm::dmat4&) { count += primitive.vertices.size(); });
     const uint64_t step = count / kMost + 1;
     std::vector<glm::dvec3> positions;
     uint64_t skip = 0;
-    for (const Placement& placement : nodes)
-        for (const PrimitiveMesh& primitive : meshes.at(model.nodes[placement.node].mesh)) {
-            const uint64_t vertices = primitive.vertices.size();
-            for (; skip < vertices; skip += step) {
-                const glm::dvec3 p(placement.toWorld * glm::dvec4(primitive.vertices[skip].position, 1.0));
-                const glm::vec3 single(p); // what is beyond floats takes no part
-                if (std::isfinite(single.x + single.y + single.z)) positions.push_back(p);
-            }
-            skip -= vertices;
+    meshes.forEach([&](const PrimitiveMesh& primitive, const glm::dmat4& toWorld) {
+        const uint64_t vertices = primitive.vertices.size();
+        for (; skip < vertices; skip += step) {
+            const glm::dvec3 p(toWorld * glm::dvec4(primitive.vertices[skip].position, 1.0));
+            if (isFinite(glm::vec3(p))) positions.push_back(p); // what is beyond floats takes no part
         }
+        skip -= vertices;
+    });
     return positions;
 }
 
@@ -108,15 +104,15 @@ Scene assembleScene(const SourceFile& source, const tinygltf::Model& model) {
     std::vector<Placement> nodes = placeNodes(model);
     refuseTooMany(source, model, nodes);
     readMaterials(source, model, scene);
-    const Meshes meshes = readMeshes(source, model, nodes, scene);
-    std::vector<glm::dvec3> positions = somePositions(model, nodes, meshes);
+    const ShownMeshes meshes(source, model, nodes, scene);
+    std::vector<glm::dvec3> positions = somePositions(meshes);
     if (positions.empty()) positions = lightPositions(model, nodes);
     scene.origin = sceneOrigin(positions);
-    for (Placement& placement : nodes) {
-        placement.toWorld[3] -= glm::dvec4(scene.origin, 0.0);
-        for (const PrimitiveMesh& primitive : meshes.at(model.nodes[placement.node].mesh))
-            appendInstance(primitive, placement.toWorld, scene);
-    }
+    meshes.forEach([&](const PrimitiveMesh& primitive, glm::dmat4 toWorld) {
+        toWorld[3] -= glm::dvec4(scene.origin, 0.0);
+        appendInstance(primitive, toWorld, scene);
+    });
+    for (Placement& placement : nodes) placement.toWorld[3] -= glm::dvec4(scene.origin, 0.0);
     scene.cameras = placeCameras(source, model, nodes);
     scene.lights = placeLights(source, model, nodes);
     for (const Finding& finding : source.findings->all()) scene.notes.warnings.push_back(finding.message);

@@ -71,7 +71,7 @@ public:
 private:
     bool checkMesh(size_t index) const {
         const tinygltf::Mesh& mesh = model_.meshes[index];
-        bool isGood = true;
+        bool isGood = attempt([&] { checkTargets(thing("mesh", "meshes", index, mesh.name), mesh); });
         for (size_t p = 0; p < mesh.primitives.size(); ++p) {
             const tinygltf::Primitive& primitive = mesh.primitives[p];
             const Thing owner = primitiveThing(index, mesh, p);
@@ -99,6 +99,24 @@ private:
         if (primitive.mode < TINYGLTF_MODE_POINTS || primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN)
             source_.refuse(owner.at("mode"), "VALUE_NOT_IN_LIST", "mode {}", primitive.mode);
         checkIndices(owner.at("indices"), primitive);
+        for (int set = 0; primitive.attributes.contains(fmt::format("JOINTS_{}", set)); ++set)
+            if (!primitive.attributes.contains(fmt::format("WEIGHTS_{}", set)))
+                source_.refuse(owner.at("attributes"), "MESH_PRIMITIVE_JOINTS_WEIGHTS_MISMATCH",
+                               "JOINTS_{0} without WEIGHTS_{0}", set);
+    }
+
+    // Targets are told apart by their number alone, so all primitives have as many.
+    void checkTargets(const Thing& owner, const tinygltf::Mesh& mesh) const {
+        for (const tinygltf::Primitive& primitive : mesh.primitives) {
+            if (primitive.targets.size() != mesh.primitives.front().targets.size())
+                source_.refuse(owner.at("primitives"), "MESH_PRIMITIVES_UNEQUAL_TARGETS_COUNT",
+                               "{} and {} morph targets", mesh.primitives.front().targets.size(),
+                               primitive.targets.size());
+            if (!mesh.weights.empty() && mesh.weights.size() != primitive.targets.size())
+                source_.refuse(owner.at("weights"), "MESH_INVALID_WEIGHTS_COUNT",
+                               "{} weights for {} morph targets", mesh.weights.size(),
+                               primitive.targets.size());
+        }
     }
 
     void checkIndices(const Thing& owner, const tinygltf::Primitive& primitive) const {

@@ -1,5 +1,6 @@
 #include "engine/scene/gltf/explain.h"
 
+#include "engine/scene/gltf/glb.h"
 #include "engine/scene/gltf/json_guard.h"
 #include <algorithm>
 #include <fmt/ranges.h>

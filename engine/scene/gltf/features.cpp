@@ -20,6 +20,7 @@ constexpr std::string_view kReadExtensions[] = {"KHR_materials_emissive_strength
                                                 "KHR_texture_transform",
                                                 "KHR_lights_punctual",
                                                 "KHR_mesh_quantization",
+                                                "EXT_mesh_gpu_instancing",
                                                 "KHR_xmp",
                                                 "KHR_xmp_json_ld"};
 
@@ -38,7 +39,6 @@ constexpr IgnoredExtension kIgnoredExtensions[] = {
     {"KHR_materials_variants", "the default variant is shown"},
     {"EXT_lights_image_based", "its light from outside is dark"},
     {"EXT_lights_ies", "such lights shine alike in all directions"},
-    {"EXT_mesh_gpu_instancing", "each such mesh stands once"},
     {"KHR_node_visibility", "hidden nodes are shown"},
     {"KHR_animation_pointer", "the scene is at rest"},
 };
@@ -74,7 +74,8 @@ void noteMeshes(const SourceFile& source, const tinygltf::Model& model) {
         for (const tinygltf::Primitive& primitive : mesh.primitives)
             targets = targets || !primitive.targets.empty();
     if (targets)
-        noteLeftOut(source, "/meshes", "morph targets are not supported yet: meshes keep their base shape");
+        noteLeftOut(source, "/meshes",
+                    "morph targets stand at rest, at the weights of their meshes and nodes");
 }
 
 void warnOfEmptyAccessors(const SourceFile& source, const tinygltf::Model& model) {
@@ -138,9 +139,9 @@ void noteIgnoredFeatures(const SourceFile& source, const tinygltf::Model& model)
     noteMeshes(source, model);
     warnOfEmptyAccessors(source, model);
     if (!model.skins.empty())
-        noteLeftOut(source, "/skins", "skins are not supported yet: meshes keep their unskinned shape");
+        noteLeftOut(source, "/skins", "skins stand at rest, at the transforms of their joints");
     if (!model.animations.empty())
-        noteLeftOut(source, "/animations", "animations are not supported yet: the scene is at rest");
+        noteLeftOut(source, "/animations", "animations are not played: the scene stands at rest");
 }
 
 } // namespace irradia::gltf

@@ -2,7 +2,6 @@
 
 #include "engine/scene/gltf/data_uri.h"
 #include <algorithm>
-#include <cstring>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -68,7 +67,7 @@ public:
         countValue();
         const std::string_view name = property();
         if (!isInteger(name)) return true;
-        const uint64_t limit = kSizeProperties.contains(name) && !isSparse() ? kMaxSize : kMaxIndex;
+        const uint64_t limit = isSize(name) && !isSparse() && !isInExtension() ? kMaxSize : kMaxIndex;
         if (value > limit) source_.report(here(), "VALUE_NOT_IN_RANGE", "{} is above {}", value, limit);
         if (isOfBuffer("byteLength")) buffer().byteLength = value;
         return true;
@@ -162,10 +161,25 @@ private:
         for (const Level& level : path_) {
             if (level.key == "extras") return false;
             if (level.key == "extensions")
-                return name == "index" || name == "texCoord" || name == "light"; // a texture's, a node's
+                return isOfExtension(static_cast<size_t>(&level - path_.data()), name);
         }
         return kIntegerProperties.contains(name) || isAttribute();
     }
+
+    // .../extensions/EXTENSION/...: of those read here.
+    bool isOfExtension(size_t level, std::string_view name) const {
+        if (name == "index" || name == "texCoord" || name == "light") return true; // a texture's, a node's
+        if (level + 1 >= path_.size()) return false;
+        const std::string& extension = path_[level + 1].key;
+        const bool isAttribute = level + 3 < path_.size() && path_[level + 2].key == "attributes";
+        if (extension == "EXT_mesh_gpu_instancing") return isAttribute;
+        if (extension == "KHR_draco_mesh_compression") return isAttribute || name == "bufferView";
+        if (extension == "EXT_texture_webp") return name == "source";
+        return extension == "EXT_meshopt_compression" &&
+               (name == "buffer" || name == "byteStride" || isSize(name));
+    }
+
+    static bool isSize(std::string_view name) { return kSizeProperties.contains(name); }
 
     // meshes/M/primitives/P/attributes/NAME or meshes/M/primitives/P/targets/T/NAME
     bool isAttribute() const {
@@ -177,6 +191,11 @@ private:
     // accessors/A/sparse/...: tinygltf keeps these sizes in 32 bits.
     bool isSparse() const {
         return path_.size() >= 3 && path_[0].key == "accessors" && path_[2].key == "sparse";
+    }
+
+    // tinygltf keeps these in 32 bits too.
+    bool isInExtension() const {
+        return std::ranges::any_of(path_, [](const Level& level) { return level.key == "extensions"; });
     }
 
     // A JSON pointer to the value being read, "/accessors/3/count".
@@ -196,44 +215,7 @@ private:
     uint64_t values_ = 0;
 };
 
-uint32_t littleEndian32(const uint8_t* bytes) {
-    return bytes[0] | uint32_t{bytes[1]} << 8 | uint32_t{bytes[2]} << 16 | uint32_t{bytes[3]} << 24;
-}
-
-constexpr uint64_t kGlbHeader = 12;
-constexpr uint64_t kChunkHeader = 8;
-constexpr uint32_t kJsonChunk = 0x4E4F534A; // "JSON"
-
 } // namespace
-
-bool isBinary(const SourceFile& source) {
-    return source.bytes.size() >= 4 && std::memcmp(source.bytes.data(), "glTF", 4) == 0;
-}
-
-std::string_view jsonText(const SourceFile& source) {
-    const uint8_t* bytes = source.bytes.data();
-    const char* text = reinterpret_cast<const char*>(bytes);
-    const uint64_t size = source.bytes.size();
-    if (!isBinary(source)) return {text, size};
-
-    if (size < kGlbHeader + kChunkHeader)
-        source.refuse(Thing{}, "GLB_UNEXPECTED_END_OF_HEADER", "{} bytes", size);
-    const uint32_t version = littleEndian32(bytes + 4);
-    if (version != 2) source.refuse(Thing{}, "GLB_INVALID_VERSION", "{}, only 2 can be read", version);
-    const uint64_t length = littleEndian32(bytes + 8);
-    if (length > size)
-        source.refuse(Thing{}, "GLB_LENGTH_MISMATCH", "the header says {} bytes, the file has {}", length,
-                      size);
-
-    const uint64_t jsonLength = littleEndian32(bytes + kGlbHeader);
-    if (littleEndian32(bytes + kGlbHeader + 4) != kJsonChunk)
-        source.refuse(Thing{}, "GLB_UNEXPECTED_FIRST_CHUNK", "the first chunk is not JSON");
-    if (kGlbHeader + kChunkHeader + jsonLength > length)
-        source.refuse(Thing{}, "GLB_CHUNK_TOO_BIG", "{} bytes of JSON in {} bytes", jsonLength, length);
-    if (jsonLength % 4 != 0)
-        source.refuse(Thing{}, "GLB_CHUNK_LENGTH_UNALIGNED", "{} bytes of JSON", jsonLength);
-    return {text + kGlbHeader + kChunkHeader, jsonLength};
-}
 
 JsonFindings guardJson(const SourceFile& source, std::string_view json, Schema schema) {
     JsonFindings findings;

@@ -31,10 +31,4 @@ enum class Schema { Gltf, Any }; // Any: only the shape of the text counts
 // large.
 JsonFindings guardJson(const SourceFile& source, std::string_view json, Schema schema = Schema::Gltf);
 
-// The JSON text of a .gltf, or of a .glb (told by its magic) whose chunks are checked against the file's
-// size.
-std::string_view jsonText(const SourceFile& source);
-
-bool isBinary(const SourceFile& source);
-
 } // namespace irradia::gltf

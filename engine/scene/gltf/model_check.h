@@ -50,6 +50,12 @@ bool checkMaterials(const SourceFile& source, const tinygltf::Model& model);
 // do.
 bool checkMeshes(const SourceFile& source, const tinygltf::Model& model);
 
+// Skins have joints, a matrix for each, and meshes that hang on them. True where all do.
+bool checkSkins(const SourceFile& source, const tinygltf::Model& model);
+
+// Attributes of EXT_mesh_gpu_instancing are there, of one length. True where all are.
+bool checkInstancing(const SourceFile& source, const tinygltf::Model& model);
+
 // The lights of KHR_lights_punctual have possible values, and nodes name those there are. True where all is
 // well.
 bool checkLights(const SourceFile& source, const tinygltf::Model& model);

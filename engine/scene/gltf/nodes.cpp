@@ -14,17 +14,14 @@ glm::dmat4 localTransform(const tinygltf::Node& node) {
         for (int column = 0; column < 4; ++column) matrix[column].w = column == 3 ? 1.0 : 0.0;
         return matrix;
     }
-    glm::dmat4 transform(1.0);
-    if (!node.translation.empty())
-        transform = glm::translate(transform, glm::make_vec3(node.translation.data()));
-    if (const auto& q = node.rotation; !q.empty()) // glTF: x y z w
-        transform *= glm::mat4_cast(glm::normalize(glm::dquat(q[3], q[0], q[1], q[2])));
-    if (!node.scale.empty()) transform = glm::scale(transform, glm::make_vec3(node.scale.data()));
-    return transform;
+    const auto& [t, r, s] = std::tie(node.translation, node.rotation, node.scale);
+    return transformOf(t.empty() ? glm::dvec3(0.0) : glm::make_vec3(t.data()),
+                       r.empty() ? glm::dvec4(0, 0, 0, 1) : glm::make_vec4(r.data()),
+                       s.empty() ? glm::dvec3(1.0) : glm::make_vec3(s.data()));
 }
 
-std::vector<int> rootNodes(const tinygltf::Model& model) {
-    if (!model.scenes.empty()) return model.scenes[std::max(model.defaultScene, 0)].nodes;
+// Those that are no node's child.
+std::vector<int> allRoots(const tinygltf::Model& model) {
     std::vector<bool> isChild(model.nodes.size(), false);
     for (const tinygltf::Node& node : model.nodes)
         for (const int child : node.children) isChild[child] = true;
@@ -32,6 +29,18 @@ std::vector<int> rootNodes(const tinygltf::Model& model) {
     for (size_t i = 0; i < model.nodes.size(); ++i)
         if (!isChild[i]) roots.push_back(static_cast<int>(i));
     return roots;
+}
+
+std::vector<Placement> placeFrom(const tinygltf::Model& model, const std::vector<int>& roots) {
+    std::vector<Placement> placed;
+    for (const int root : roots) placed.push_back({root, localTransform(model.nodes[root])});
+    // `placed` is its own queue: hierarchies may be deeper than the stack.
+    for (size_t i = 0; i < placed.size(); ++i) {
+        const Placement parent = placed[i];
+        for (const int child : model.nodes[parent.node].children)
+            placed.push_back({child, parent.toWorld * localTransform(model.nodes[child])});
+    }
+    return placed;
 }
 
 // Looks along the node's -Z with +Y up; its scale does not count.
@@ -52,16 +61,22 @@ bool isFinite(glm::dvec3 v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
+glm::dmat4 transformOf(const glm::dvec3& translation, const glm::dvec4& rotation, const glm::dvec3& scale) {
+    const glm::dquat q(rotation.w, rotation.x, rotation.y, rotation.z);
+    return glm::scale(glm::translate(glm::dmat4(1.0), translation) * glm::mat4_cast(glm::normalize(q)),
+                      scale);
+}
+
 std::vector<Placement> placeNodes(const tinygltf::Model& model) {
-    std::vector<Placement> placed;
-    for (const int root : rootNodes(model)) placed.push_back({root, localTransform(model.nodes[root])});
-    // `placed` is its own queue: hierarchies may be deeper than the stack.
-    for (size_t i = 0; i < placed.size(); ++i) {
-        const Placement parent = placed[i];
-        for (const int child : model.nodes[parent.node].children)
-            placed.push_back({child, parent.toWorld * localTransform(model.nodes[child])});
-    }
-    return placed;
+    return placeFrom(model, model.scenes.empty() ? allRoots(model)
+                                                 : model.scenes[std::max(model.defaultScene, 0)].nodes);
+}
+
+std::vector<glm::dmat4> worldTransforms(const tinygltf::Model& model) {
+    std::vector<glm::dmat4> worlds(model.nodes.size());
+    for (const Placement& placement : placeFrom(model, allRoots(model)))
+        worlds[placement.node] = placement.toWorld;
+    return worlds;
 }
 
 std::vector<Camera> placeCameras(const SourceFile& source, const tinygltf::Model& model,

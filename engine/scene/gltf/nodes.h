@@ -14,8 +14,14 @@ struct Placement {
     glm::dmat4 toWorld{1.0};
 };
 
+// Scaled, rotated (x y z w), moved.
+glm::dmat4 transformOf(const glm::dvec3& translation, const glm::dvec4& rotation, const glm::dvec3& scale);
+
 // Every node of the file's default scene (else its first; else of all root nodes), parents before children.
 std::vector<Placement> placeNodes(const tinygltf::Model& model);
+
+// Of every node of the file, in any scene or none.
+std::vector<glm::dmat4> worldTransforms(const tinygltf::Model& model);
 
 // Whether every number is finite.
 bool isFinite(glm::dvec3 v);

@@ -3,6 +3,7 @@
 #include "engine/scene/gltf/data_uri.h"
 #include "engine/scene/gltf/features.h"
 #include "engine/scene/gltf/foreign.h"
+#include "engine/scene/gltf/glb.h"
 #include "engine/scene/gltf/json_guard.h"
 #include <algorithm>
 #include <exception>

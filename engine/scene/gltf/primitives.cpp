@@ -29,13 +29,14 @@ glm::u64vec3 cornersOf(int mode, uint64_t t) {
 class PrimitiveReader {
 public:
     PrimitiveReader(const SourceFile& source, const tinygltf::Model& model,
-                    const tinygltf::Primitive& primitive, Thing owner, const Scene& scene)
+                    const tinygltf::Primitive& primitive, Thing owner, const Pose& pose, const Scene& scene)
         : source_(source)
         , model_(model)
         , primitive_(primitive)
         , owner_(std::move(owner))
         , material_(scene.materials[materialOf(primitive, scene)])
-        , vertices_(source, model, primitive, owner_, material_) {
+        , vertices_(source, model, primitive, owner_, material_, pose)
+        , mirrors_(pose.mirrors) {
         mesh_.material = materialOf(primitive, scene);
         noteMissingCoordinates();
     }
@@ -44,7 +45,8 @@ public:
         const TextureRef& normals = material_.normalTexture;
         const bool generates = normals.image >= 0 && !vertices_.hasTangents();
         slots_.assign(vertices_.count() * 2, kNone);
-        for (const glm::uvec3& source : sourceTriangles()) {
+        for (glm::uvec3 source : sourceTriangles()) {
+            if (mirrors_) std::swap(source.y, source.z);
             const bool mirrored = generates && isMirrored(source);
             mesh_.triangles.push_back(
                 {corner(source.x, mirrored), corner(source.y, mirrored), corner(source.z, mirrored)});
@@ -123,6 +125,7 @@ private:
     Thing owner_;
     const Material& material_;
     VertexReader vertices_;
+    bool mirrors_;                // its pose turns fronts to backs
     std::vector<uint32_t> slots_; // the vertex by 2 * the file's + mirrored
     PrimitiveMesh mesh_;
 };
@@ -155,7 +158,7 @@ uint64_t triangleCount(const tinygltf::Model& model, const tinygltf::Primitive& 
 }
 
 std::vector<PrimitiveMesh> readMesh(const SourceFile& source, const tinygltf::Model& model, int mesh,
-                                    const Scene& scene) {
+                                    const Pose& pose, const Scene& scene) {
     const tinygltf::Mesh& from = model.meshes[mesh];
     std::vector<PrimitiveMesh> primitives;
     for (size_t p = 0; p < from.primitives.size(); ++p) {
@@ -168,7 +171,7 @@ std::vector<PrimitiveMesh> readMesh(const SourceFile& source, const tinygltf::Mo
             source.note(Severity::Info, "/meshes", kNotRendered, "points and lines are left out");
         else if (triangleCount(model, primitive) > 0)
             source.attempt(owner, {}, [&] {
-                primitives.push_back(PrimitiveReader(source, model, primitive, owner, scene).read());
+                primitives.push_back(PrimitiveReader(source, model, primitive, owner, pose, scene).read());
             });
     }
     return primitives;

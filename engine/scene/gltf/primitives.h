@@ -3,6 +3,7 @@
 
 #include "engine/scene/gltf/file.h"
 #include "engine/scene/gltf/model.h"
+#include "engine/scene/gltf/pose.h"
 #include "engine/scene/scene.h"
 #include <vector>
 
@@ -25,9 +26,9 @@ uint64_t vertexCount(const tinygltf::Model& model, const tinygltf::Primitive& pr
 // Triangles a primitive will have: 0 for points and lines.
 uint64_t triangleCount(const tinygltf::Model& model, const tinygltf::Primitive& primitive);
 
-// Every triangle primitive of a mesh; the model has passed validateModel. Throws BadData for an index out of
-// range.
+// Every triangle primitive of a mesh in that pose; the model has passed validateModel. Throws BadData for an
+// index out of range.
 std::vector<PrimitiveMesh> readMesh(const SourceFile& source, const tinygltf::Model& model, int mesh,
-                                    const Scene& scene);
+                                    const Pose& pose, const Scene& scene);
 
 } // namespace irradia::gltf

@@ -6,13 +6,12 @@
 namespace irradia::gltf {
 namespace {
 
-class ThingCheck : private ModelCheck {
+class CameraCheck : private ModelCheck {
 public:
     using ModelCheck::ModelCheck;
 
-    void checkAll(Soundness& sound) const {
-        sound.cameras = each(model_.cameras, [&](size_t i) { checkCamera(i); });
-        each(model_.skins, [&](size_t i) { checkSkin(i); }); // which are not read
+    bool checkAll() const {
+        return each(model_.cameras, [&](size_t i) { checkCamera(i); });
     }
 
 private:
@@ -27,16 +26,6 @@ private:
         if (camera.type == "perspective" && !(fov > 1e-6 && fov < 3.14159265))
             source_.refuse(owner.at("perspective").at("yfov"), "VALUE_NOT_IN_RANGE", "yfov {}", fov);
     }
-
-    void checkSkin(size_t index) const {
-        const tinygltf::Skin& skin = model_.skins[index];
-        const Thing owner = thing("skin", "skins", index, skin.name);
-        checkIndex(owner.at("inverseBindMatrices"), "accessor", skin.inverseBindMatrices,
-                   model_.accessors.size(), Need::Optional);
-        checkIndex(owner.at("skeleton"), "node", skin.skeleton, model_.nodes.size(), Need::Optional);
-        for (const int joint : skin.joints)
-            checkIndex(owner.at("joints"), "node", joint, model_.nodes.size(), Need::Required);
-    }
 };
 
 } // namespace
@@ -46,9 +35,11 @@ Soundness validateModel(const SourceFile& source, const tinygltf::Model& model) 
     sound.data = checkData(source, model);
     sound.materials = checkMaterials(source, model);
     sound.meshes = checkMeshes(source, model);
-    ThingCheck(source, model).checkAll(sound);
+    sound.cameras = CameraCheck(source, model).checkAll();
+    sound.skins = checkSkins(source, model);
     sound.lights = checkLights(source, model);
     sound.nodes = checkNodes(source, model);
+    sound.nodes = checkInstancing(source, model) && sound.nodes;
     return sound;
 }
 

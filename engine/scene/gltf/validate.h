@@ -14,6 +14,7 @@ struct Soundness {
     bool meshes = false;
     bool nodes = false;
     bool cameras = false;
+    bool skins = false;
     bool lights = false;
 };
 

@@ -32,7 +32,8 @@ glm::vec2 textureCoordinates(const Vertex& vertex, const TextureRef& texture) {
 }
 
 VertexReader::VertexReader(const SourceFile& source, const tinygltf::Model& model,
-                           const tinygltf::Primitive& primitive, const Thing& owner, const Material& material)
+                           const tinygltf::Primitive& primitive, const Thing& owner, const Material& material,
+                           const Pose& pose)
     : source_(source)
     , owner_(owner)
     , positions_(attribute(model, primitive, "POSITION"))
@@ -41,21 +42,23 @@ VertexReader::VertexReader(const SourceFile& source, const tinygltf::Model& mode
     , tangents_(material.normalTexture.image >= 0 && normals_ ? attribute(model, primitive, "TANGENT")
                                                               : std::nullopt)
     , colors_(attribute(model, primitive, "COLOR_0"))
-    , uv_{attribute(model, primitive, "TEXCOORD_0"), attribute(model, primitive, "TEXCOORD_1")} {
+    , uv_{attribute(model, primitive, "TEXCOORD_0"), attribute(model, primitive, "TEXCOORD_1")}
+    , morphing_(model, primitive, pose)
+    , skinning_(source, model, primitive, owner, pose) {
     if (colors_) hasAlpha_ = model.accessors[primitive.attributes.at("COLOR_0")].type == TINYGLTF_TYPE_VEC4;
 }
 
 Vertex VertexReader::read(uint64_t i) {
     Vertex vertex;
     vertex.position = positions_->element(i);
-    if (normals_) {
-        vertex.normal = normals_->element(i);
-        if (!isUsable(vertex.normal)) vertex.normal = glm::vec3(0.0f);
-    }
-    if (tangents_) {
-        const glm::vec4 tangent = tangents_->element(i);
-        if (isUsable(tangent)) vertex.tangent = glm::vec4(glm::vec3(tangent), tangent.w < 0 ? -1.0f : 1.0f);
-    }
+    if (normals_) vertex.normal = normals_->element(i);
+    if (tangents_) vertex.tangent = tangents_->element(i);
+    morphing_.apply(i, vertex);
+    skinning_.apply(i, vertex);
+    if (!normals_ || !isUsable(vertex.normal)) vertex.normal = glm::vec3(0.0f);
+    const bool hasTangent = tangents_ && isUsable(vertex.tangent);
+    const float handedness = vertex.tangent.w < 0 ? -1.0f : 1.0f;
+    vertex.tangent = hasTangent ? glm::vec4(glm::vec3(vertex.tangent), handedness) : glm::vec4(0.0f);
     for (int set = 0; set < 2; ++set)
         if (uv_[set]) vertex.uv[set] = readUv(set, i);
     if (colors_) vertex.color = readColor(i);

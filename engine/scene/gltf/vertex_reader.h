@@ -1,8 +1,10 @@
-// The vertices of a primitive as its accessors state them.
+// The vertices of a primitive as its accessors state them, posed.
 #pragma once
 
 #include "engine/scene/gltf/accessors.h"
 #include "engine/scene/gltf/file.h"
+#include "engine/scene/gltf/morphing.h"
+#include "engine/scene/gltf/skinning.h"
 #include "engine/scene/scene.h"
 #include <optional>
 
@@ -15,7 +17,7 @@ class VertexReader {
 public:
     // Tangents are read where the material has a normal map.
     VertexReader(const SourceFile& source, const tinygltf::Model& model, const tinygltf::Primitive& primitive,
-                 const Thing& owner, const Material& material);
+                 const Thing& owner, const Material& material, const Pose& pose);
 
     uint64_t count() const { return positions_->count(); }
     bool hasCoordinates(int set) const { return uv_[set].has_value(); }
@@ -40,6 +42,8 @@ private:
     const Thing& owner_;
     View positions_, normals_, tangents_, colors_;
     View uv_[2];
+    Morphing morphing_;
+    Skinning skinning_;
     bool hasAlpha_ = false; // colours of four components
     bool badUv_ = false, badColor_ = false;
 };

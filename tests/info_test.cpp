@@ -77,24 +77,32 @@ GltfBuilder lamps() {
     GltfBuilder builder;
     const int positions = builder.vec3({{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}});
     const int uv = builder.vec2({{0, 1}, {1, 1}, {1, 0}, {0, 0}});
-    builder.mesh({{"attributes", {{"POSITION", positions}, {"TEXCOORD_0", uv}}},
+    const int colours = builder.vec3(std::vector<glm::vec3>(4, glm::vec3(0.5f)));
+    builder.mesh({{"attributes", {{"POSITION", positions}, {"TEXCOORD_0", uv}, {"COLOR_0", colours}}},
                   {"targets", {{{"POSITION", positions}}}},
                   {"indices", builder.indices({0, 1, 2, 0, 2, 3})},
                   {"material", 0}});
     builder.root({{"mesh", 0}, {"translation", {0, 0, 5}}});
-    builder.root({{"camera", 0}, {"translation", {0, 0, 9}}});
+    builder.root({{"camera", 0},
+                  {"translation", {0, 0, 9}},
+                  {"extensions", {{"KHR_lights_punctual", {{"light", 1}}}}}});
     const int picture = builder.view(encodePng({3, 2, std::vector<uint8_t>(24, 255)}));
     builder.json["images"] = {{{"bufferView", picture}, {"mimeType", "image/png"}, {"name", "glow"}},
                               {{"uri", "unused.png"}}};
     builder.json["textures"] = {{{"source", 0}}};
     builder.json["materials"] = {{{"emissiveFactor", {1, 1, 1}},
                                   {"emissiveTexture", {{"index", 0}}},
-                                  {"extensions", {{"KHR_materials_ior", {{"ior", 1.4}}}}}}};
+                                  {"alphaMode", "BLEND"},
+                                  {"extensions",
+                                   {{"KHR_materials_ior", {{"ior", 1.4}}},
+                                    {"KHR_materials_transmission", {{"transmissionFactor", 0.5}}}}}}};
     builder.json["cameras"] = {
         {{"name", "door"}, {"type", "perspective"}, {"perspective", {{"yfov", 0.5}, {"znear", 0.1}}}}};
     builder.json["skins"] = {{{"joints", {0}}}};
-    builder.json["extensionsUsed"] = {"KHR_materials_ior", "KHR_lights_punctual", "VENDOR_secret"};
-    builder.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}, {{"type", "point"}}};
+    builder.json["extensionsUsed"] = {"KHR_materials_ior", "KHR_materials_transmission",
+                                      "KHR_lights_punctual", "KHR_materials_sheen", "VENDOR_secret"};
+    builder.json["extensions"]["KHR_lights_punctual"]["lights"] = {
+        {{"type", "point"}}, {{"type", "spot"}, {"spot", {{"innerConeAngle", 0.1}}}}};
     builder.json["asset"]["generator"] = "a test";
     return builder;
 }
@@ -139,7 +147,15 @@ TEST_CASE("info counts what a scene holds, as its nodes place it") {
     CHECK(info["pictures"] == Json({{{"name", "glow"}, {"width", 3}, {"height", 2}}}));
     CHECK(info["lights"]["emissive_triangles"] == 4);
     CHECK(info["lights"]["environment"] == false);
-    CHECK(info["lights"]["ignored"] == 2);
+    CHECK(info["lights"]["point"] == 0);
+    CHECK(info["lights"]["spot"] == 1); // the other stands nowhere
+    CHECK(info["lights"]["directional"] == 0);
+    CHECK(info["lights"]["ignored"] == 0);
+    CHECK(info["masked_materials"] == 0);
+    CHECK(info["blended_materials"] == 1);
+    CHECK(info["transmissive_materials"] == 1);
+    CHECK(info["unlit_materials"] == 0);
+    CHECK(info["coloured_primitives"] == 1);
     CHECK(info["cameras"][0]["name"] == "door");
     CHECK(std::abs(info["cameras"][0]["vfov_deg"].get<double>() - 28.6479) < 1e-4);
     CHECK(info["bounds"] == Json({{"lower", {0, 0, 0}}, {"upper", {2, 2, 5}}}));
@@ -147,12 +163,15 @@ TEST_CASE("info counts what a scene holds, as its nodes place it") {
     std::map<std::string, std::string> support;
     for (const Json& extension : info["extensions"]) support[extension["name"]] = extension["support"];
     CHECK(support == std::map<std::string, std::string>{{"KHR_materials_ior", "rendered"},
-                                                        {"KHR_lights_punctual", "ignored"},
+                                                        {"KHR_materials_transmission", "rendered"},
+                                                        {"KHR_lights_punctual", "rendered"},
+                                                        {"KHR_materials_sheen", "ignored"},
                                                         {"VENDOR_secret", "unknown"}});
     const Run sheet = irradiaProgram("info " + file.string());
     CHECK(sheet.code == 0);
     CHECK(sheet.err.empty());
-    for (const char* line : {"triangles", "'door'", "KHR_lights_punctual: ignored", "1 skin", "3 x 2  glow"})
+    for (const char* line : {"triangles", "'door'", "KHR_materials_sheen: ignored", "1 skin", "3 x 2  glow",
+                             "1 spot light", "1, of them 1 blended, 1 transmissive", "of 1 primitive"})
         CHECK(sheet.out.find(line) != std::string::npos);
 }
 
@@ -428,7 +447,7 @@ TEST_CASE("validate takes several files and passes those without errors") {
     CHECK(run.err.empty());
     CHECK(run.out.find("0 errors, 0 warnings, ") != std::string::npos);
     CHECK(run.out.find("NOT_RENDERED") != std::string::npos);
-    CHECK(run.out.find("KHR_lights_punctual") != std::string::npos);
+    CHECK(run.out.find("KHR_materials_sheen") != std::string::npos);
     const Json report = jsonOf("validate " + bad + " " + good, 65);
     CHECK(report["files"][0]["findings"][0]["code"] == "INVALID_JSON");
     CHECK(report["files"][1]["errors"] == 0);

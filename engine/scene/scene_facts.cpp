@@ -5,6 +5,7 @@
 #include "engine/scene/gltf/nodes.h"
 #include "engine/scene/gltf/parse.h"
 #include "engine/scene/gltf/validate.h"
+#include "engine/scene/gltf/values.h"
 #include <algorithm>
 #include <new>
 
@@ -22,12 +23,9 @@ const char* nameOf(gltf::Support support) {
     }
 }
 
-// Punctual lights, which tinygltf reads, and image-based ones, which it keeps as JSON.
-uint64_t countLights(const tinygltf::Model& model) {
-    uint64_t count = model.lights.size();
-    if (const auto found = model.extensions.find("EXT_lights_image_based"); found != model.extensions.end())
-        count += found->second.Get("lights").ArrayLen();
-    return count;
+uint64_t countImageLights(const tinygltf::Model& model) {
+    const auto* extension = gltf::findExtension(model.extensions, "EXT_lights_image_based");
+    return extension ? gltf::member(*extension, "lights").ArrayLen() : 0;
 }
 
 void countModel(const tinygltf::Model& model, SceneFacts& facts) {
@@ -39,16 +37,36 @@ void countModel(const tinygltf::Model& model, SceneFacts& facts) {
     facts.materials = model.materials.size();
     facts.textures = model.textures.size();
     facts.pictures = model.images.size();
-    facts.extensionLights = countLights(model);
+    facts.extensionLights = countImageLights(model);
     facts.animations = model.animations.size();
     facts.skins = model.skins.size();
     for (const tinygltf::Mesh& mesh : model.meshes) {
         facts.primitives += mesh.primitives.size();
         for (const tinygltf::Primitive& primitive : mesh.primitives)
             facts.morphTargets += primitive.targets.size();
+        for (const tinygltf::Primitive& primitive : mesh.primitives)
+            facts.colouredPrimitives += primitive.attributes.contains("COLOR_0") ? 1 : 0;
     }
     for (const gltf::Placement& placement : gltf::placeNodes(model))
         facts.instances += model.nodes[placement.node].mesh >= 0 ? 1 : 0;
+}
+
+void countMaterials(const Scene& scene, SceneFacts& facts) {
+    for (const Material& material : scene.materials) {
+        facts.maskedMaterials += material.alphaMode == AlphaMode::Mask ? 1 : 0;
+        facts.blendedMaterials += material.alphaMode == AlphaMode::Blend ? 1 : 0;
+        facts.transmissiveMaterials += material.transmission > 0.0f ? 1 : 0;
+        facts.unlitMaterials += material.isUnlit ? 1 : 0;
+    }
+}
+
+void countLights(const Scene& scene, SceneFacts& facts) {
+    using Kind = PunctualLight::Kind;
+    for (const PunctualLight& light : scene.lights) {
+        facts.pointLights += light.kind == Kind::Point ? 1 : 0;
+        facts.spotLights += light.kind == Kind::Spot ? 1 : 0;
+        facts.directionalLights += light.kind == Kind::Directional ? 1 : 0;
+    }
 }
 
 void countScene(Scene scene, SceneFacts& facts) {
@@ -66,6 +84,8 @@ void countScene(Scene scene, SceneFacts& facts) {
         static_cast<uint64_t>(std::ranges::count_if(scene.triangles, [&](const Triangle& triangle) {
             return emits(scene.materials[triangle.material]);
         }));
+    countMaterials(scene, facts);
+    countLights(scene, facts);
     const Bounds bounds = sceneBounds(scene);
     facts.lower = glm::dvec3(bounds.lower) + scene.origin;
     facts.upper = glm::dvec3(bounds.upper) + scene.origin;

@@ -33,7 +33,7 @@ void readMeshes(const gltf::SourceFile& source, const tinygltf::Model& model, co
 void readThrough(const gltf::SourceFile& source, const tinygltf::Model& model, const gltf::Soundness& sound) {
     Scene scene;
     if (!sound.data || !sound.materials) return gltf::noteIgnoredFeatures(source, model);
-    if (sound.meshes && sound.nodes && sound.cameras) {
+    if (sound.meshes && sound.nodes && sound.cameras && sound.lights) {
         scene = gltf::assembleScene(source, model);
         warnOfLostTriangles(source, scene.notes);
     } else {

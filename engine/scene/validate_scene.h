@@ -7,9 +7,10 @@
 
 namespace irradia {
 
-// In the order of the checks: the text, then data, textures, materials, meshes, cameras, skins, nodes and
-// scenes, then what is read through them. Where the text itself is at fault nothing beyond it is checked, and
-// one thing tells one fault. Without an error among them the scene loads. Throws Error: NotFound, Io.
+// In the order of the checks: the text, then data, textures, materials, meshes, cameras, skins, lights,
+// nodes and scenes, then what is read through them. Where the text itself is at fault nothing beyond it is
+// checked, and one thing tells one fault. Without an error among them the scene loads. Throws Error:
+// NotFound, Io.
 std::vector<Finding> validateScene(const std::filesystem::path& file);
 
 } // namespace irradia

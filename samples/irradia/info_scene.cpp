@@ -49,9 +49,29 @@ std::vector<std::string> lights(const SceneFacts& facts) {
                         : fmt::format("{} of {}", counted(facts.emissiveTriangles, "emissive triangle"),
                                       counted(facts.emissiveMaterials, "material")));
     lines.push_back("no environment: --env or a camera file gives one");
+    const auto add = [&](uint64_t count, const std::string& what) {
+        if (count > 0) lines.push_back(counted(count, what));
+    };
+    add(facts.pointLights, "point light");
+    add(facts.spotLights, "spot light");
+    add(facts.directionalLights, "directional light");
     if (facts.extensionLights > 0)
         lines.push_back(fmt::format("{} of extensions, ignored", counted(facts.extensionLights, "light")));
     return lines;
+}
+
+// "5, of them 1 masked, 2 blended"
+std::string materials(const SceneFacts& facts) {
+    std::vector<std::string> kinds;
+    const auto add = [&](uint64_t count, const char* what) {
+        if (count > 0) kinds.push_back(fmt::format("{} {}", count, what));
+    };
+    add(facts.maskedMaterials, "masked");
+    add(facts.blendedMaterials, "blended");
+    add(facts.transmissiveMaterials, "transmissive");
+    add(facts.unlitMaterials, "unlit");
+    std::string text = fmt::format("{}", facts.materials);
+    return kinds.empty() ? text : fmt::format("{}, of them {}", text, fmt::join(kinds, ", "));
 }
 
 std::vector<std::string> notRendered(const SceneFacts& facts) {
@@ -88,7 +108,9 @@ void printSheet(const std::filesystem::path& file, const SceneFacts& facts) {
     sheet.add("meshes",
               fmt::format("{}, {}, placed by {}", facts.meshes, counted(facts.primitives, "primitive"),
                           counted(facts.instances, "node")));
-    sheet.add("materials", fmt::format("{}", facts.materials));
+    sheet.add("materials", materials(facts));
+    if (facts.colouredPrimitives > 0)
+        sheet.add("vertex colours", fmt::format("of {}", counted(facts.colouredPrimitives, "primitive")));
     if (facts.textures + facts.pictures > 0)
         sheet.add("textures", fmt::format("{}, {}, of which {} used with {}", facts.textures,
                                           counted(facts.pictures, "picture"), facts.usedPictures.size(),
@@ -155,6 +177,11 @@ ordered_json toJson(const std::filesystem::path& file, const SceneFacts& facts) 
         {"nodes", facts.nodes},
         {"scenes", facts.scenes},
         {"materials", facts.materials},
+        {"masked_materials", facts.maskedMaterials},
+        {"blended_materials", facts.blendedMaterials},
+        {"transmissive_materials", facts.transmissiveMaterials},
+        {"unlit_materials", facts.unlitMaterials},
+        {"coloured_primitives", facts.colouredPrimitives},
         {"textures", facts.textures},
         {"pictures_in_file", facts.pictures},
         {"texels", facts.texels},
@@ -162,6 +189,9 @@ ordered_json toJson(const std::filesystem::path& file, const SceneFacts& facts) 
          {{"emissive_triangles", facts.emissiveTriangles},
           {"emissive_materials", facts.emissiveMaterials},
           {"environment", false}, // glTF itself has none
+          {"point", facts.pointLights},
+          {"spot", facts.spotLights},
+          {"directional", facts.directionalLights},
           {"ignored", facts.extensionLights}}},
         {"bounds", {{"lower", toJson(facts.lower)}, {"upper", toJson(facts.upper)}}},
         {"not_rendered",

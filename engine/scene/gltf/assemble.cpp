@@ -2,6 +2,7 @@
 
 #include "engine/scene/gltf/features.h"
 #include "engine/scene/gltf/instances.h"
+#include "engine/scene/gltf/lights.h"
 #include "engine/scene/gltf/materials.h"
 #include "engine/scene/gltf/nodes.h"
 #include "engine/scene/scene_origin.h"
@@ -108,13 +109,16 @@ Scene assembleScene(const SourceFile& source, const tinygltf::Model& model) {
     refuseTooMany(source, model, nodes);
     readMaterials(source, model, scene);
     const Meshes meshes = readMeshes(source, model, nodes, scene);
-    scene.origin = sceneOrigin(somePositions(model, nodes, meshes));
+    std::vector<glm::dvec3> positions = somePositions(model, nodes, meshes);
+    if (positions.empty()) positions = lightPositions(model, nodes);
+    scene.origin = sceneOrigin(positions);
     for (Placement& placement : nodes) {
         placement.toWorld[3] -= glm::dvec4(scene.origin, 0.0);
         for (const PrimitiveMesh& primitive : meshes.at(model.nodes[placement.node].mesh))
             appendInstance(primitive, placement.toWorld, scene);
     }
     scene.cameras = placeCameras(source, model, nodes);
+    scene.lights = placeLights(source, model, nodes);
     for (const Finding& finding : source.findings->all()) scene.notes.warnings.push_back(finding.message);
     return scene;
 }

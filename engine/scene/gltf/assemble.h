@@ -1,4 +1,5 @@
-// From a model that has passed validateModel to the scene: materials, pictures, instances, cameras.
+// From a model that has passed validateModel to the scene: materials, pictures, instances, cameras,
+// lights.
 #pragma once
 
 #include "engine/scene/gltf/file.h"

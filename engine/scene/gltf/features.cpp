@@ -14,6 +14,11 @@ constexpr std::string_view kReadExtensions[] = {"KHR_materials_emissive_strength
                                                 "KHR_materials_ior",
                                                 "KHR_materials_specular",
                                                 "KHR_materials_pbrSpecularGlossiness",
+                                                "KHR_materials_transmission",
+                                                "KHR_materials_volume",
+                                                "KHR_materials_unlit",
+                                                "KHR_texture_transform",
+                                                "KHR_lights_punctual",
                                                 "KHR_mesh_quantization",
                                                 "KHR_xmp",
                                                 "KHR_xmp_json_ld"};
@@ -24,20 +29,15 @@ struct IgnoredExtension {
     std::string_view consequence;
 };
 constexpr IgnoredExtension kIgnoredExtensions[] = {
-    {"KHR_materials_transmission", "such materials are opaque"},
-    {"KHR_materials_diffuse_transmission", "such materials are opaque"},
-    {"KHR_materials_volume", "such materials are opaque"},
-    {"KHR_materials_dispersion", "such materials are opaque"},
-    {"KHR_materials_unlit", "such materials are lit"},
+    {"KHR_materials_diffuse_transmission", "no light passes through such materials diffusely"},
+    {"KHR_materials_dispersion", "such materials refract all colours alike"},
     {"KHR_materials_clearcoat", "such materials have no coat"},
     {"KHR_materials_sheen", "such materials have no sheen"},
     {"KHR_materials_anisotropy", "such materials reflect alike in all directions"},
     {"KHR_materials_iridescence", "such materials have no thin film"},
     {"KHR_materials_variants", "the default variant is shown"},
-    {"KHR_texture_transform", "textures keep their plain coordinates"},
-    {"KHR_lights_punctual", "point, spot and directional lights are dark"},
     {"EXT_lights_image_based", "its light from outside is dark"},
-    {"EXT_lights_ies", "such lights are dark"},
+    {"EXT_lights_ies", "such lights shine alike in all directions"},
     {"EXT_mesh_gpu_instancing", "each such mesh stands once"},
     {"KHR_node_visibility", "hidden nodes are shown"},
     {"KHR_animation_pointer", "the scene is at rest"},
@@ -61,13 +61,7 @@ void noteLeftOut(const SourceFile& source, std::string_view pointer, const std::
     source.note(Severity::Info, pointer, kNotRendered, sentence);
 }
 
-void noteMaterials(const SourceFile& source, const tinygltf::Model& model) {
-    const auto transparent =
-        std::count_if(model.materials.begin(), model.materials.end(),
-                      [](const auto& material) { return material.alphaMode != "OPAQUE"; });
-    if (transparent > 0)
-        noteLeftOut(source, "/materials",
-                    fmt::format("alpha modes are not supported yet: {} materials are opaque", transparent));
+void noteSamplers(const SourceFile& source, const tinygltf::Model& model) {
     for (const tinygltf::Sampler& sampler : model.samplers)
         if (sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST)
             noteLeftOut(source, "/samplers",
@@ -75,13 +69,10 @@ void noteMaterials(const SourceFile& source, const tinygltf::Model& model) {
 }
 
 void noteMeshes(const SourceFile& source, const tinygltf::Model& model) {
-    bool colours = false, targets = false;
+    bool targets = false;
     for (const tinygltf::Mesh& mesh : model.meshes)
-        for (const tinygltf::Primitive& primitive : mesh.primitives) {
-            colours = colours || primitive.attributes.contains("COLOR_0");
+        for (const tinygltf::Primitive& primitive : mesh.primitives)
             targets = targets || !primitive.targets.empty();
-        }
-    if (colours) noteLeftOut(source, "/meshes", "vertex colours are ignored");
     if (targets)
         noteLeftOut(source, "/meshes", "morph targets are not supported yet: meshes keep their base shape");
 }
@@ -143,7 +134,7 @@ void noteExtensions(const SourceFile& source, const JsonFindings& findings) {
 }
 
 void noteIgnoredFeatures(const SourceFile& source, const tinygltf::Model& model) {
-    noteMaterials(source, model);
+    noteSamplers(source, model);
     noteMeshes(source, model);
     warnOfEmptyAccessors(source, model);
     if (!model.skins.empty())

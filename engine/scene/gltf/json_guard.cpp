@@ -161,7 +161,8 @@ private:
         if (schema_ == Schema::Any) return false;
         for (const Level& level : path_) {
             if (level.key == "extras") return false;
-            if (level.key == "extensions") return name == "index" || name == "texCoord"; // a texture's
+            if (level.key == "extensions")
+                return name == "index" || name == "texCoord" || name == "light"; // a texture's, a node's
         }
         return kIntegerProperties.contains(name) || isAttribute();
     }

@@ -1,48 +1,64 @@
 #include "engine/scene/gltf/materials.h"
 
-#include "engine/scene/gltf/images.h"
-#include <algorithm>
+#include "engine/scene/gltf/textures.h"
 #include <cmath>
 
 namespace irradia::gltf {
 namespace {
 
-constexpr double kMaxRadiance = 1e20; // keeps products of radiance and throughput inside float
-constexpr double kMaxScale = 1e6;
-
 class MaterialReader {
 public:
-    MaterialReader(const SourceFile& source, const tinygltf::Model& model, size_t index, ImageTable& images)
+    MaterialReader(const SourceFile& source, const tinygltf::Material& from, size_t index,
+                   const TextureReader& textures)
         : source_(source)
-        , model_(model)
-        , from_(model.materials[index])
-        , owner_(thing("material", "materials", index, from_.name))
-        , images_(images) {}
+        , from_(from)
+        , values_(source, thing("material", "materials", index, from.name))
+        , textures_(textures) {}
 
     Material read() {
         Material material;
         material.name = from_.name;
+        readBaseColour(material);
+        if (find("KHR_materials_unlit")) return unlit(std::move(material));
         material.doubleSided = from_.doubleSided;
         readMetallicRoughness(material);
         readSpecularGlossiness(material);
-        readSurface(material);
+        readNormals(material);
         readEmission(material);
         readIor(material);
         readSpecular(material);
+        readTransmission(material);
+        readVolume(material);
         return material;
     }
 
 private:
-    using Extension = const tinygltf::Value*; // an object, or null
+    void readBaseColour(Material& material) {
+        const auto& pbr = from_.pbrMetallicRoughness;
+        material.baseColor = values_.colour("baseColorFactor", pbr.baseColorFactor, 1);
+        material.alpha = values_.number("baseColorFactor", pbr.baseColorFactor[3], 0, 1);
+        material.baseColorTexture = texture(pbr.baseColorTexture);
+        if (from_.alphaMode == "MASK") material.alphaMode = AlphaMode::Mask;
+        if (from_.alphaMode == "BLEND") material.alphaMode = AlphaMode::Blend;
+        material.alphaCutoff = values_.number("alphaCutoff", from_.alphaCutoff, 0, kMaxScale);
+    }
+
+    // Shows its base colour as it is: a lamp that reflects nothing.
+    static Material unlit(Material material) {
+        material.isUnlit = true;
+        material.doubleSided = true;
+        material.emission = material.emissiveFactor = material.baseColor;
+        material.emissiveTexture = material.baseColorTexture; // which keeps its alpha
+        material.baseColor = glm::vec3(0.0f);
+        material.metallic = material.specular = 0.0f;
+        return material;
+    }
 
     void readMetallicRoughness(Material& material) {
         const auto& pbr = from_.pbrMetallicRoughness;
-        material.baseColor = colour("baseColorFactor", pbr.baseColorFactor, 1);
-        material.metallic = number("metallicFactor", pbr.metallicFactor, 0, 1);
-        material.roughness = number("roughnessFactor", pbr.roughnessFactor, 0, 1);
-        material.baseColorTexture = texture(pbr.baseColorTexture.index, pbr.baseColorTexture.texCoord);
-        material.metallicRoughnessTexture =
-            texture(pbr.metallicRoughnessTexture.index, pbr.metallicRoughnessTexture.texCoord);
+        material.metallic = values_.number("metallicFactor", pbr.metallicFactor, 0, 1);
+        material.roughness = values_.number("roughnessFactor", pbr.roughnessFactor, 0, 1);
+        material.metallicRoughnessTexture = texture(pbr.metallicRoughnessTexture);
     }
 
     // KHR_materials_pbrSpecularGlossiness as a dielectric whose F0 is the specular colour: KHR_materials_ior
@@ -50,140 +66,83 @@ private:
     void readSpecularGlossiness(Material& material) {
         const Extension extension = find("KHR_materials_pbrSpecularGlossiness");
         if (!extension) return;
-        material.baseColor = colour(*extension, "diffuseFactor", 1);
+        material.baseColor = values_.colour(*extension, "diffuseFactor", 1);
+        const std::vector<double> diffuse = numbers(*extension, "diffuseFactor");
+        material.alpha = values_.number("diffuseFactor", diffuse.size() < 4 ? 1.0 : diffuse[3], 0, 1);
         material.baseColorTexture = texture(*extension, "diffuseTexture");
         material.metallic = 0.0f;
         material.metallicRoughnessTexture = {};
-        material.roughness = 1.0f - number(*extension, "glossinessFactor", 1, 0, 1);
+        material.roughness = 1.0f - values_.number(*extension, "glossinessFactor", 1, 0, 1);
         material.ior = 0.0f;
-        material.specularColor = colour(*extension, "specularFactor", 1);
+        material.specularColor = values_.colour(*extension, "specularFactor", 1);
         material.specularColorTexture = texture(*extension, "specularGlossinessTexture");
         if (material.specularColorTexture.image >= 0)
-            source_.note(Severity::Info, owner_.pointer, kNotRendered,
+            source_.note(Severity::Info, values_.owner().pointer, kNotRendered,
                          "the glossiness channel of specular-glossiness textures is ignored");
     }
 
-    void readSurface(Material& material) {
+    void readNormals(Material& material) {
         material.normalScale =
-            number("normalTexture.scale", from_.normalTexture.scale, -kMaxScale, kMaxScale);
-        material.normalTexture = texture(from_.normalTexture.index, from_.normalTexture.texCoord);
+            values_.number("normalTexture.scale", from_.normalTexture.scale, -kMaxScale, kMaxScale);
+        material.normalTexture = texture(from_.normalTexture);
     }
 
     void readEmission(Material& material) {
         const Extension extension = find("KHR_materials_emissive_strength");
-        const double strength = extension ? plain(*extension, "emissiveStrength", 1) : 1.0;
+        const double strength = extension ? plainNumber(*extension, "emissiveStrength", 1) : 1.0;
         std::vector<double> radiance = from_.emissiveFactor;
-        material.emissiveFactor = colour("emissiveFactor", radiance, kMaxRadiance);
+        material.emissiveFactor = values_.colour("emissiveFactor", radiance, kMaxRadiance);
         for (double& channel : radiance) channel *= strength;
-        material.emission = colour("emissiveFactor x emissiveStrength", radiance, kMaxRadiance);
-        material.emissiveTexture = texture(from_.emissiveTexture.index, from_.emissiveTexture.texCoord);
+        material.emission = values_.colour("emissiveFactor x emissiveStrength", radiance, kMaxRadiance);
+        material.emissiveTexture = texture(from_.emissiveTexture);
     }
 
     void readIor(Material& material) {
         const Extension extension = find("KHR_materials_ior");
         if (!extension) return;
-        const double ior = plain(*extension, "ior", 1.5);
-        material.ior = ior == 0 ? 0.0f : number("ior", ior, 1, kMaxScale);
+        const double ior = plainNumber(*extension, "ior", 1.5);
+        material.ior = ior == 0 ? 0.0f : values_.number("ior", ior, 1, kMaxScale);
     }
 
     void readSpecular(Material& material) {
         const Extension extension = find("KHR_materials_specular");
         if (!extension) return;
-        material.specular = number(*extension, "specularFactor", 1, 0, 1);
-        material.specularColor = colour(*extension, "specularColorFactor", kMaxScale);
+        material.specular = values_.number(*extension, "specularFactor", 1, 0, 1);
+        material.specularColor = values_.colour(*extension, "specularColorFactor", kMaxScale);
         material.specularTexture = texture(*extension, "specularTexture");
         material.specularColorTexture = texture(*extension, "specularColorTexture");
     }
 
-    Extension find(const std::string& name) const {
-        const auto found = from_.extensions.find(name);
-        return found != from_.extensions.end() && found->second.IsObject() ? &found->second : nullptr;
+    void readTransmission(Material& material) {
+        const Extension extension = find("KHR_materials_transmission");
+        if (!extension) return;
+        material.transmission = values_.number(*extension, "transmissionFactor", 0, 0, 1);
+        material.transmissionTexture = texture(*extension, "transmissionTexture");
     }
 
-    static double plain(const tinygltf::Value& extension, const std::string& key, double otherwise) {
-        const tinygltf::Value& value = extension.Get(key);
-        return value.IsNumber() ? value.GetNumberAsDouble() : otherwise;
+    // The thickness itself is for rasterizers: rays find the other side, wherever it is.
+    void readVolume(Material& material) {
+        const Extension extension = find("KHR_materials_volume");
+        if (!extension) return;
+        material.isThin = values_.number(*extension, "thicknessFactor", 0, 0, kMaxRadiance) == 0.0f;
+        if (material.isThin || !extension->Has("attenuationDistance")) return; // by default infinite
+        constexpr double kLeast = 1e-6; // black would be dense beyond any number
+        const double distance = values_.number(*extension, "attenuationDistance", 0, 1e-20, 1e30);
+        const glm::vec3 colour = values_.colour(*extension, "attenuationColor", 1);
+        material.absorption = 0.0 - glm::log(glm::max(glm::dvec3(colour), kLeast)) / distance;
     }
 
-    float number(const tinygltf::Value& extension, const std::string& key, double otherwise, double low,
-                 double high) {
-        return number(key, plain(extension, key, otherwise), low, high);
-    }
+    Extension find(const std::string& name) const { return findExtension(from_.extensions, name); }
 
-    float number(const std::string& key, double value, double low, double high) {
-        const double clamped = std::isnan(value) ? low : std::clamp(value, low, high);
-        if (clamped != value)
-            warn(owner_, "VALUE_NOT_IN_RANGE",
-                 fmt::format("{}: {} {} is outside {} to {} and was clamped", owner_.name, key, value, low,
-                             high));
-        return static_cast<float>(clamped);
-    }
-
-    glm::vec3 colour(const tinygltf::Value& extension, const std::string& key, double high) {
-        std::vector<double> values;
-        const tinygltf::Value& array = extension.Get(key);
-        for (size_t i = 0; i < array.ArrayLen(); ++i)
-            values.push_back(array.Get(static_cast<int>(i)).GetNumberAsDouble());
-        return values.size() < 3 ? glm::vec3(1.0f) : colour(key, values, high);
-    }
-
-    glm::vec3 colour(const std::string& key, const std::vector<double>& values, double high) {
-        return {number(key, values[0], 0, high), number(key, values[1], 0, high),
-                number(key, values[2], 0, high)};
-    }
-
-    TextureRef texture(const tinygltf::Value& extension, const std::string& key) {
-        const tinygltf::Value& info = extension.Get(key);
-        if (!info.IsObject() || !info.Has("index")) return {};
-        const tinygltf::Value& set = info.Get("texCoord");
-        return texture(info.Get("index").GetNumberAsInt(), set.IsNumber() ? set.GetNumberAsInt() : 0);
-    }
-
-    TextureRef texture(int index, int uvSet) {
-        if (index < 0) return {};
-        const tinygltf::Texture& from = model_.textures[index];
-        const Thing owner = thing("texture", "textures", static_cast<size_t>(index), from.name);
-        if (uvSet > 1) {
-            warn(owner_, kNotRendered,
-                 fmt::format("{}: texture {} uses coordinate set {}, only 0 and 1 can be used", owner_.name,
-                             index, uvSet));
-            return {};
-        }
-        if (from.source < 0) {
-            warn(owner, kNotRendered, owner.name + " has no picture of a supported format");
-            return {};
-        }
-        bool isMissing = false;
-        const Thing image = thing("image", "images", static_cast<size_t>(from.source)).at("uri");
-        if (!source_.attempt(image, "INVALID_URI", [&] { isMissing = images_.isMissing(from.source); }))
-            return {};
-        if (isMissing) {
-            warn(image, "IO_ERROR",
-                 fmt::format("{} is left out: {} is missing", owner.name, images_.nameOf(from.source)));
-            return {};
-        }
-        TextureRef ref{images_.use(from.source), uvSet, Wrap::Repeat, Wrap::Repeat};
-        if (from.sampler >= 0) {
-            ref.wrapS = wrap(model_.samplers[from.sampler].wrapS);
-            ref.wrapT = wrap(model_.samplers[from.sampler].wrapT);
-        }
-        return ref;
-    }
-
-    void warn(const Thing& at, std::string_view code, const std::string& sentence) const {
-        source_.note(Severity::Warning, at.pointer, code, sentence);
-    }
-
-    static Wrap wrap(int mode) {
-        if (mode == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE) return Wrap::ClampToEdge;
-        return mode == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? Wrap::MirroredRepeat : Wrap::Repeat;
+    template <typename... Info>
+    TextureRef texture(const Info&... info) const {
+        return textures_.read(values_, textureInfo(info...));
     }
 
     const SourceFile& source_;
-    const tinygltf::Model& model_;
     const tinygltf::Material& from_;
-    Thing owner_;
-    ImageTable& images_;
+    Values values_;
+    const TextureReader& textures_;
 };
 
 bool needsDefault(const tinygltf::Model& model) {
@@ -197,8 +156,9 @@ bool needsDefault(const tinygltf::Model& model) {
 
 void readMaterials(const SourceFile& source, const tinygltf::Model& model, Scene& scene) {
     ImageTable images(source, model, scene.images);
+    const TextureReader textures(source, model, images);
     for (size_t i = 0; i < model.materials.size(); ++i)
-        scene.materials.push_back(MaterialReader(source, model, i, images).read());
+        scene.materials.push_back(MaterialReader(source, model.materials[i], i, textures).read());
     if (needsDefault(model)) scene.materials.push_back({.name = "default"});
     images.decode();
 }

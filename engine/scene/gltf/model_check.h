@@ -28,12 +28,31 @@ protected:
         return source_.attempt(Thing{}, {}, check);
     }
 
+    // Checks of every element of an array: whether all passed.
+    template <typename Array, typename Check>
+    bool each(const Array& array, Check&& check) const {
+        bool areGood = true;
+        for (size_t i = 0; i < array.size(); ++i) areGood = attempt([&] { check(i); }) && areGood;
+        return areGood;
+    }
+
     const SourceFile& source_;
     const tinygltf::Model& model_;
 };
 
 // Buffer views and accessors lie within their buffers. True where all do.
 bool checkData(const SourceFile& source, const tinygltf::Model& model);
+
+// Samplers, textures and materials, extensions included, name what there is. True where all do.
+bool checkMaterials(const SourceFile& source, const tinygltf::Model& model);
+
+// Primitives and their attributes have the formats that glTF and KHR_mesh_quantization allow. True where all
+// do.
+bool checkMeshes(const SourceFile& source, const tinygltf::Model& model);
+
+// The lights of KHR_lights_punctual have possible values, and nodes name those there are. True where all is
+// well.
+bool checkLights(const SourceFile& source, const tinygltf::Model& model);
 
 // The nodes are a forest of transforms, and scenes list its roots. Indices of meshes and cameras are checked
 // too. True where all is well.

@@ -34,10 +34,6 @@ std::vector<int> rootNodes(const tinygltf::Model& model) {
     return roots;
 }
 
-bool isFinite(glm::dvec3 v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
 // Looks along the node's -Z with +Y up; its scale does not count.
 bool orient(Camera& camera, const glm::dmat4& toWorld) {
     const auto forward = -glm::dvec3(toWorld[2]);
@@ -51,6 +47,10 @@ bool orient(Camera& camera, const glm::dmat4& toWorld) {
 }
 
 } // namespace
+
+bool isFinite(glm::dvec3 v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
 
 std::vector<Placement> placeNodes(const tinygltf::Model& model) {
     std::vector<Placement> placed;

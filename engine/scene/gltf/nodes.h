@@ -17,6 +17,9 @@ struct Placement {
 // Every node of the file's default scene (else its first; else of all root nodes), parents before children.
 std::vector<Placement> placeNodes(const tinygltf::Model& model);
 
+// Whether every number is finite.
+bool isFinite(glm::dvec3 v);
+
 // Cameras of the placed nodes, in the file's node order.
 std::vector<Camera> placeCameras(const SourceFile& source, const tinygltf::Model& model,
                                  const std::vector<Placement>& nodes);

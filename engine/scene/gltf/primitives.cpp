@@ -2,22 +2,13 @@
 
 #include "engine/scene/gltf/accessors.h"
 #include "engine/scene/gltf/tangents.h"
-#include <cmath>
+#include "engine/scene/gltf/vertex_reader.h"
 #include <optional>
 
 namespace irradia::gltf {
 namespace {
 
 constexpr uint32_t kNone = ~0u;
-constexpr float kMaxUv = 1e6f; // beyond it a float no longer resolves a texel of the repeated picture
-
-using View = std::optional<AccessorView>;
-
-View attribute(const tinygltf::Model& model, const tinygltf::Primitive& primitive, const std::string& name) {
-    const auto found = primitive.attributes.find(name);
-    return found == primitive.attributes.end() ? std::nullopt : View(std::in_place, model, found->second);
-}
-
 uint64_t cornerCount(const tinygltf::Model& model, const tinygltf::Primitive& primitive) {
     if (!primitive.attributes.contains("POSITION")) return 0;
     return primitive.indices >= 0 ? model.accessors[primitive.indices].count : vertexCount(model, primitive);
@@ -35,11 +26,6 @@ glm::u64vec3 cornersOf(int mode, uint64_t t) {
     }
 }
 
-bool isUsable(glm::vec3 direction) {
-    const float length2 = glm::dot(direction, direction);
-    return std::isfinite(length2) && length2 > 1e-20f;
-}
-
 class PrimitiveReader {
 public:
     PrimitiveReader(const SourceFile& source, const tinygltf::Model& model,
@@ -48,33 +34,23 @@ public:
         , model_(model)
         , primitive_(primitive)
         , owner_(std::move(owner))
-        , positions_(attribute(model, primitive, "POSITION"))
-        , normals_(attribute(model, primitive, "NORMAL"))
-        , uv_{attribute(model, primitive, "TEXCOORD_0"), attribute(model, primitive, "TEXCOORD_1")} {
-        mesh_.material = static_cast<uint32_t>(
-            primitive.material >= 0 ? static_cast<size_t>(primitive.material) : scene.materials.size() - 1);
-        const Material& material = scene.materials[mesh_.material];
-        mapped_ = material.normalTexture.image >= 0;
-        uvSet_ = material.normalTexture.uvSet;
-        // glTF 2.0, 3.7.2.1: without normals, tangents are to be ignored.
-        if (const auto tangent = primitive.attributes.find("TANGENT");
-            mapped_ && normals_ && tangent != primitive.attributes.end())
-            tangents_.emplace(model, tangent->second);
-        noteMissingCoordinates(material);
+        , material_(scene.materials[materialOf(primitive, scene)])
+        , vertices_(source, model, primitive, owner_, material_) {
+        mesh_.material = materialOf(primitive, scene);
+        noteMissingCoordinates();
     }
 
     PrimitiveMesh read() {
-        const bool generates = mapped_ && !tangents_;
-        slots_.assign(positions_->count() * 2, kNone);
+        const TextureRef& normals = material_.normalTexture;
+        const bool generates = normals.image >= 0 && !vertices_.hasTangents();
+        slots_.assign(vertices_.count() * 2, kNone);
         for (const glm::uvec3& source : sourceTriangles()) {
             const bool mirrored = generates && isMirrored(source);
             mesh_.triangles.push_back(
                 {corner(source.x, mirrored), corner(source.y, mirrored), corner(source.z, mirrored)});
         }
-        if (generates) generateTangents(mesh_, uvSet_);
-        if (badUv_)
-            source_.warn(owner_, "ACCESSOR_INVALID_FLOAT",
-                         "texture coordinates that are not finite or beyond {} are taken as 0", kMaxUv);
+        if (generates) generateTangents(mesh_, normals);
+        vertices_.noteMends();
         return std::move(mesh_);
     }
 
@@ -84,7 +60,7 @@ private:
         if (primitive_.mode == TINYGLTF_MODE_TRIANGLES && cornerCount(model_, primitive_) % 3 != 0)
             source_.note(Severity::Warning, owner_.pointer, "MESH_PRIMITIVE_INCOMPATIBLE_MODE",
                          owner_.name + ": the last indices make no whole triangle and are left out");
-        View indices;
+        std::optional<AccessorView> indices;
         if (primitive_.indices >= 0) indices.emplace(model_, primitive_.indices);
         std::vector<glm::uvec3> triangles(count);
         for (uint64_t t = 0; t < count; ++t) {
@@ -98,10 +74,10 @@ private:
 
     uint32_t checkedIndex(const AccessorView& indices, uint64_t i) const {
         const uint32_t index = indices.index(i);
-        if (index >= positions_->count())
+        if (index >= vertices_.count())
             source_.refuse(owner_.at("indices"), "ACCESSOR_INDEX_OOB",
                            "accessor {} element {} is {}, there are {} vertices", primitive_.indices, i,
-                           index, positions_->count());
+                           index, vertices_.count());
         return index;
     }
 
@@ -110,60 +86,43 @@ private:
     uint32_t corner(uint32_t source, bool mirrored) {
         uint32_t& slot = slots_[2 * uint64_t{source} + (mirrored ? 1 : 0)];
         if (slot != kNone) return slot;
-        const Vertex vertex = readVertex(source);
+        const Vertex vertex = vertices_.read(source);
         const auto index = static_cast<uint32_t>(mesh_.vertices.size());
         mesh_.vertices.push_back(vertex);
         if (vertex.normal != glm::vec3(0.0f)) slot = index;
         return index;
     }
 
-    Vertex readVertex(uint64_t i) {
-        Vertex vertex;
-        vertex.position = positions_->element(i);
-        if (normals_) {
-            vertex.normal = normals_->element(i);
-            if (!isUsable(vertex.normal)) vertex.normal = glm::vec3(0.0f);
-        }
-        if (tangents_) {
-            const glm::vec4 tangent = tangents_->element(i);
-            if (isUsable(tangent))
-                vertex.tangent = glm::vec4(glm::vec3(tangent), tangent.w < 0 ? -1.0f : 1.0f);
-        }
-        for (int set = 0; set < 2; ++set)
-            if (uv_[set]) vertex.uv[set] = readUv(set, i);
-        return vertex;
-    }
-
-    glm::vec2 readUv(int set, uint64_t i) {
-        const glm::vec2 uv = uv_[set]->element(i);
-        if (std::abs(uv.x) <= kMaxUv && std::abs(uv.y) <= kMaxUv) return uv;
-        badUv_ = true;
-        return glm::vec2(0.0f);
-    }
-
     bool isMirrored(const glm::uvec3& t) {
-        if (!uv_[uvSet_]) return false;
-        return uvArea(readUv(uvSet_, t.x), readUv(uvSet_, t.y), readUv(uvSet_, t.z)) > 0;
+        const TextureRef& normals = material_.normalTexture;
+        if (!vertices_.hasCoordinates(normals.uvSet)) return false;
+        const auto uv = [&](uint32_t i) { return vertices_.coordinates(i, normals); };
+        return uvArea(uv(t.x), uv(t.y), uv(t.z)) > 0;
     }
 
-    void noteMissingCoordinates(const Material& material) {
+    void noteMissingCoordinates() {
+        const Material& m = material_;
         for (const TextureRef* ref :
-             {&material.baseColorTexture, &material.metallicRoughnessTexture, &material.normalTexture,
-              &material.emissiveTexture, &material.specularTexture, &material.specularColorTexture})
-            if (ref->image >= 0 && !uv_[ref->uvSet])
+             {&m.baseColorTexture, &m.metallicRoughnessTexture, &m.normalTexture, &m.emissiveTexture,
+              &m.specularTexture, &m.specularColorTexture, &m.transmissionTexture})
+            if (ref->image >= 0 && !vertices_.hasCoordinates(ref->uvSet))
                 source_.warn(owner_, "MESH_PRIMITIVE_TOO_FEW_TEXCOORDS", "its material needs TEXCOORD_{}",
                              ref->uvSet);
+    }
+
+    // The file's, or its default material, which is the scene's last.
+    static uint32_t materialOf(const tinygltf::Primitive& primitive, const Scene& scene) {
+        const int material = primitive.material;
+        return static_cast<uint32_t>(material >= 0 ? static_cast<size_t>(material)
+                                                   : scene.materials.size() - 1);
     }
 
     const SourceFile& source_;
     const tinygltf::Model& model_;
     const tinygltf::Primitive& primitive_;
     Thing owner_;
-    View positions_, normals_, tangents_;
-    View uv_[2];
-    bool mapped_ = false; // has a normal map
-    int uvSet_ = 0;       // the normal map's
-    bool badUv_ = false;
+    const Material& material_;
+    VertexReader vertices_;
     std::vector<uint32_t> slots_; // the vertex by 2 * the file's + mirrored
     PrimitiveMesh mesh_;
 };

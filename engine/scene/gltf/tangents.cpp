@@ -1,5 +1,6 @@
 #include "engine/scene/gltf/tangents.h"
 
+#include "engine/scene/gltf/vertex_reader.h"
 #include <algorithm>
 #include <cmath>
 
@@ -22,13 +23,17 @@ float uvArea(glm::vec2 a, glm::vec2 b, glm::vec2 c) {
     return first.x * second.y - second.x * first.y;
 }
 
-void generateTangents(PrimitiveMesh& mesh, int uvSet) {
+void generateTangents(PrimitiveMesh& mesh, const TextureRef& normalMap) {
     for (const glm::uvec3& triangle : mesh.triangles) {
         const Vertex* v[3];
-        for (int c = 0; c < 3; ++c) v[c] = &mesh.vertices[triangle[c]];
+        glm::vec2 uv[3];
+        for (int c = 0; c < 3; ++c) {
+            v[c] = &mesh.vertices[triangle[c]];
+            uv[c] = textureCoordinates(*v[c], normalMap);
+        }
         const glm::vec3 edge1 = v[1]->position - v[0]->position, edge2 = v[2]->position - v[0]->position;
-        const glm::vec2 uv1 = v[1]->uv[uvSet] - v[0]->uv[uvSet], uv2 = v[2]->uv[uvSet] - v[0]->uv[uvSet];
-        const float area = uvArea(v[0]->uv[uvSet], v[1]->uv[uvSet], v[2]->uv[uvSet]);
+        const glm::vec2 uv1 = uv[1] - uv[0], uv2 = uv[2] - uv[0];
+        const float area = uvArea(uv[0], uv[1], uv[2]);
         // dp/du without its positive scale
         const glm::vec3 alongU = glm::normalize((edge1 * uv2.y - edge2 * uv1.y) * (area < 0 ? -1.0f : 1.0f));
         if (area == 0.0f || !isFinite(alongU)) continue;

@@ -9,9 +9,10 @@ namespace irradia::gltf {
 // seen from its front and positive for a mirrored one.
 float uvArea(glm::vec2 a, glm::vec2 b, glm::vec2 c);
 
-// Tangents along +u, averaged over each vertex' triangles by the angle they meet at (Mikkelsen, "Simulation
-// of Wrinkled Surfaces Revisited", 2008); w such that w cross(n, t) points along -v, up in the picture. Zero
-// where the coordinates span no area. A vertex must not join mirrored triangles with others.
-void generateTangents(PrimitiveMesh& mesh, int uvSet);
+// Tangents along the normal map's +u, averaged over each vertex' triangles by the angle they meet at
+// (Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008); w such that w cross(n, t) points along -v,
+// up in the picture. Zero where the coordinates span no area. A vertex must not join mirrored triangles with
+// others.
+void generateTangents(PrimitiveMesh& mesh, const TextureRef& normalMap);
 
 } // namespace irradia::gltf

@@ -14,10 +14,11 @@ struct Soundness {
     bool meshes = false;
     bool nodes = false;
     bool cameras = false;
+    bool lights = false;
 };
 
-// Checks buffer views, accessors, meshes, materials, textures, images, cameras, skins, nodes and scenes.
-// Throws BadData at the first fault, or collects one for each thing.
+// Checks buffer views, accessors, meshes, materials, textures, images, cameras, skins, lights, nodes and
+// scenes. Throws BadData at the first fault, or collects one for each thing.
 Soundness validateModel(const SourceFile& source, const tinygltf::Model& model);
 
 } // namespace irradia::gltf

@@ -123,18 +123,33 @@ int GlbWriter::addMesh(const std::string& name, const Mesh& mesh, int material) 
     return addMesh(name, std::span(&part, 1));
 }
 
-void GlbWriter::placeNode(const std::string& name, const glm::mat4& transform, const char* kind, int index) {
-    Json node = {{"name", name}, {kind, index}};
+void GlbWriter::placeNode(const std::string& name, const glm::mat4& transform, Json&& content) {
+    Json node = {{"name", name}};
+    node.update(content);
     if (transform != glm::mat4(1.0f)) node["matrix"] = numbers<Json>(glm::value_ptr(transform), 16);
     push(gltf_, "nodes", std::move(node));
 }
 
 void GlbWriter::addNode(const std::string& name, int mesh, const glm::mat4& transform) {
-    placeNode(name, transform, "mesh", mesh);
+    placeNode(name, transform, {{"mesh", mesh}});
 }
 
 void GlbWriter::add(const std::string& name, const Mesh& mesh, int material, const glm::mat4& transform) {
     addNode(name, addMesh(name, mesh, material), transform);
+}
+
+int GlbWriter::addLight(const GltfLight& l) {
+    useExtension("KHR_lights_punctual");
+    const bool isSpot = l.cone.y > 0.0f;
+    Json light = {{"type", isSpot ? "spot" : "point"},
+                  {"color", numbers<Json>(glm::value_ptr(l.color), 3)},
+                  {"intensity", l.intensity}};
+    if (isSpot) light["spot"] = {{"innerConeAngle", l.cone.x}, {"outerConeAngle", l.cone.y}};
+    return push(gltf_["extensions"]["KHR_lights_punctual"], "lights", std::move(light));
+}
+
+void GlbWriter::addLightNode(const std::string& name, int light, const glm::mat4& transform) {
+    placeNode(name, transform, {{"extensions", {{"KHR_lights_punctual", {{"light", light}}}}}});
 }
 
 void GlbWriter::addCamera(const std::string& name, glm::vec3 eye, glm::vec3 target,
@@ -143,7 +158,7 @@ void GlbWriter::addCamera(const std::string& name, glm::vec3 eye, glm::vec3 targ
     const int camera =
         push(gltf_, "cameras", Json{{"name", name}, {"type", "perspective"}, {"perspective", lens}});
     const glm::vec3 up(0.0f, 1.0f, 0.0f);
-    placeNode(name, glm::affineInverse(glm::lookAt(eye, target, up)), "camera", camera);
+    placeNode(name, glm::affineInverse(glm::lookAt(eye, target, up)), {{"camera", camera}});
 }
 
 void GlbWriter::write(const std::filesystem::path& file) const {

@@ -25,6 +25,13 @@ struct GltfMaterial {
     int normalTexture = -1;
 };
 
+// A light without extent (KHR_lights_punctual), a point but for its cone.
+struct GltfLight {
+    glm::vec3 color{1.0f};
+    float intensity = 1.0f; // W/sr
+    glm::vec2 cone{0.0f};   // of a spot, inner and outer angle in radians
+};
+
 class GlbWriter {
 public:
     // A picture repeated in both directions, as PNG. Returns the texture's index.
@@ -44,6 +51,10 @@ public:
     void add(const std::string& name, const Mesh& mesh, int material,
              const glm::mat4& transform = glm::mat4(1.0f));
 
+    int addLight(const GltfLight& light);
+    // A spot shines along its node's -z.
+    void addLightNode(const std::string& name, int light, const glm::mat4& transform);
+
     void addCamera(const std::string& name, glm::vec3 eye, glm::vec3 target, float verticalFovDegrees);
 
     void write(const std::filesystem::path& file) const;
@@ -56,7 +67,7 @@ private:
     int addView(std::span<const uint8_t> bytes);
     template <typename T>
     int addAccessor(const std::vector<T>& values, int componentType, const char* type);
-    void placeNode(const std::string& name, const glm::mat4& transform, const char* kind, int index);
+    void placeNode(const std::string& name, const glm::mat4& transform, Json&& node);
     void useExtension(const char* name);
 
     Json gltf_ = {{"asset", {{"version", "2.0"}, {"generator", "Irradia make_scenes"}}}};

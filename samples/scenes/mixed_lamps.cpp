@@ -78,7 +78,7 @@ void writeGallery(const std::filesystem::path& file, uint32_t lit) {
         const uint32_t place = i / 2;
         const float x = spread(place / kAcross, kAlong, kGallery.lower.x, kGallery.upper.x);
         const float z = spread(place % kAcross, kAcross, kGallery.lower.z, kGallery.upper.z);
-        const float y = i % 2 == 0 ? kGallery.upper.y - 0.02f : random.between(1.9f, 3.4f);
+        const float y = i % 2 == 0 ? kGallery.upper.y - 0.1f : random.between(1.9f, 3.2f);
         lamps.add(i, {x, y, z}, random);
     }
     addGalleryExhibits(glb);

@@ -110,14 +110,16 @@ float largestAlbedo(const Scene& scene, const Material& material) {
 
 struct Expected {
     const char* name;
-    size_t triangles, emissive, cameras;
+    size_t triangles, emissive, cameras, lights = 0; // of those without extent
 };
 
 // Counts follow from the programs that write the scenes; the interior's lies within what its name promises.
-constexpr std::array<Expected, 6> kScenes{{{"cornell-box", 32, 2, 1},
+constexpr std::array<Expected, 8> kScenes{{{"cornell-box", 32, 2, 1},
                                            {"door-room", 10042, 2, 1},
                                            {"glossy-room", 26078, 0, 1},
                                            {"lamp-gallery", 29308, 250 * 2 + 250 * 8, 2},
+                                           {"mixed-lamps", 25774, 166, 2, 334},
+                                           {"mixed-lamp", 25774, 0, 2, 1},
                                            {"interior", 104230, 322, 2},
                                            {"furnace-sphere", 5120, 5120, 1}}};
 
@@ -130,6 +132,7 @@ TEST_CASE("Own scenes load without a warning or a dropped triangle, with the cou
         CHECK(scene.triangles.size() == expected.triangles);
         CHECK(emissiveTriangles(scene) == expected.emissive);
         CHECK(scene.cameras.size() == expected.cameras);
+        CHECK(scene.lights.size() == expected.lights);
         CHECK(scene.notes.degenerateTriangles == 0);
         CHECK(scene.notes.nonFiniteTriangles == 0);
         CHECK(scene.notes.warnings == std::vector<std::string>{});
@@ -238,5 +241,5 @@ TEST_CASE("make_scenes writes the same bytes again") {
         CHECK((bytes == bytesOf(again.folder() / entry.path().filename())));
         files++;
     }
-    CHECK(files == 8); // six scenes, a sky and its camera file
+    CHECK(files == 10); // eight scenes, a sky and its camera file
 }

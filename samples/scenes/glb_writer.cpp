@@ -150,6 +150,20 @@ void GlbWriter::add(const std::string& name, const Mesh& mesh, int material, con
     addNode(name, addMesh(name, mesh, material), transform);
 }
 
+int GlbWriter::addLight(const GltfLight& l) {
+    useExtension("KHR_lights_punctual");
+    const bool isSpot = l.cone.y > 0.0f;
+    Json light = {{"type", l.isSun ? "directional" : isSpot ? "spot" : "point"},
+                  {"color", numbers(glm::value_ptr(l.color), 3)},
+                  {"intensity", l.intensity}};
+    if (isSpot) light["spot"] = {{"innerConeAngle", l.cone.x}, {"outerConeAngle", l.cone.y}};
+    return push(gltf_["extensions"]["KHR_lights_punctual"], "lights", std::move(light));
+}
+
+void GlbWriter::addLightNode(const std::string& name, int light, const glm::mat4& transform) {
+    placeNode(name, transform, "extensions", {{"KHR_lights_punctual", {{"light", light}}}});
+}
+
 void GlbWriter::addCamera(const std::string& name, glm::vec3 eye, glm::vec3 target,
                           float verticalFovDegrees) {
     const Json lens = {{"yfov", glm::radians(verticalFovDegrees)}, {"znear", 0.01f}};
@@ -160,18 +174,11 @@ void GlbWriter::addCamera(const std::string& name, glm::vec3 eye, glm::vec3 targ
 }
 
 void GlbWriter::addSun(const std::string& name, glm::vec3 direction, glm::vec3 irradiance) {
-    const char* extension = "KHR_lights_punctual";
-    useExtension(extension);
     const float intensity = std::max({irradiance.r, irradiance.g, irradiance.b}); // colours stay within 0..1
-    const glm::vec3 color = irradiance / intensity;
-    const int light = push(gltf_["extensions"][extension], "lights",
-                           Json{{"name", name},
-                                {"type", "directional"},
-                                {"color", numbers(glm::value_ptr(color), 3)},
-                                {"intensity", intensity}});
+    const int light = addLight({.color = irradiance / intensity, .intensity = intensity, .isSun = true});
     const glm::mat4 placed =
         glm::affineInverse(glm::lookAt(glm::vec3(0.0f), direction, glm::vec3(0.0f, 1.0f, 0.0f)));
-    placeNode(name, placed, "extensions", {{extension, {{"light", light}}}});
+    addLightNode(name, light, placed);
 }
 
 void GlbWriter::write(const std::filesystem::path& file) const {

@@ -34,6 +34,14 @@ struct GltfMaterial {
     glm::vec3 attenuationColor{1.0f};
 };
 
+// A light without extent (KHR_lights_punctual), a point but for its cone.
+struct GltfLight {
+    glm::vec3 color{1.0f};
+    float intensity = 1.0f; // W/sr; of the sun W/m^2 on what faces it
+    glm::vec2 cone{0.0f};   // of a spot, inner and outer angle in radians
+    bool isSun = false;     // at infinity
+};
+
 class GlbWriter {
 public:
     // A picture repeated in both directions, as PNG. Returns the texture's index.
@@ -52,6 +60,10 @@ public:
     // Shorthand for a mesh that stands in one place.
     void add(const std::string& name, const Mesh& mesh, int material,
              const glm::mat4& transform = glm::mat4(1.0f));
+
+    int addLight(const GltfLight& light);
+    // Spots and the sun shine along their node's -z.
+    void addLightNode(const std::string& name, int light, const glm::mat4& transform);
 
     void addCamera(const std::string& name, glm::vec3 eye, glm::vec3 target, float verticalFovDegrees);
 

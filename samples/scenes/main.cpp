@@ -12,6 +12,7 @@ void makeScenes(const std::filesystem::path& folder) {
     scenes::writeDoorRoom(folder);
     scenes::writeGlossyRoom(folder);
     scenes::writeLampGallery(folder);
+    scenes::writeMixedLamps(folder);
     scenes::writeInterior(folder);
     scenes::writeGreenhouse(folder);
     scenes::writeFurnaceSphere(folder);

@@ -57,7 +57,7 @@ void Glazier::glazeSide() {
             addPane(glass, {{{x, y0, z1}, {x, y0, z0}, {x, y1, z0}, {x, y1, z1}}});
         };
         add(materials_.clear, house_.plinth, middle);
-        const bool isFrosted = i == 3 || i == 6;
+        const bool isFrosted = i == 3 || i == 5;
         const int above = i == 4 ? materials_.amber : i == 1 ? materials_.green : materials_.clear;
         add(isFrosted ? materials_.frosted : above, middle, house_.eave);
         addBar(bars_, {x, house_.plinth, z0}, {x, house_.eave, z0}, 0.025f);

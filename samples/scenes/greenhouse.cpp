@@ -83,7 +83,7 @@ void addGarden(GlbWriter& glb) {
     Mesh garden = grow(ground, 24, 24, {0.1f, 0.2f, 0.04f}, {0.2f, 0.3f, 0.08f});
     const auto hedge = [&](float u, float v) {
         const float x = 16.0f * u - 8.0f, y = 1.9f * v;
-        return glm::vec3(x, y - 0.1f, 0.18f * bumps(2.0f * x, 3.0f * y) + 0.2f - v * v * 0.5f);
+        return glm::vec3(x, y - 0.1f, 0.12f * bumps(0.7f * x, 1.1f * y) + 0.2f - v * v * 0.5f);
     };
     const Mesh green = grow(hedge, 64, 10, {0.05f, 0.13f, 0.03f}, {0.15f, 0.27f, 0.06f});
     garden.append(green, translation({0.0f, 0.0f, -9.0f}));

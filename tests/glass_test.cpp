@@ -27,10 +27,11 @@ double rounding() { // of one operation in single precision, relative
 // The twin of a case, and what a density is made of.
 struct Twin {
     explicit Twin(const GlassCase& c)
-        : surface{Vec3(c.base), c.metallic, c.roughness, Vec3(c.f0), c.specular}
+        : surface{Vec3(c.base), c.metallic, c.roughness,
+                  c.isSheet ? Vec3(c.f0) : reference::f0Between(Vec3(c.f0), c.ior, c.eta), c.specular}
         , parameters{kindOf(c), c.transmission, c.isSheet ? 1.0 : double(c.eta)}
         , glass(surface, parameters)
-        , fresnel{Vec3(c.f0), c.specular, parameters.eta}
+        , fresnel{surface.f0, c.specular, parameters.eta}
         , v(c.view)
         , ggx{glass.alpha()} {}
 
@@ -134,6 +135,7 @@ GlassCase randomGlass(reference::Random& random) {
     c.roughness = uniform() < 0.1f ? 0.0f : 0.05f + 0.95f * uniform();
     const double eta = kIndices[static_cast<size_t>(6.0 * random.uniform())];
     c.eta = static_cast<float>(random.uniform() < 0.5 ? eta : 1.0 / eta);
+    c.ior = uniform() < 0.1f ? 1.0f : 1.0f + 1.5f * uniform();
     c.transmission = std::clamp(1.5f * uniform(), 0.0f, 1.0f);
     c.isSheet = uniform() < 0.25f;
     c.view = glm::vec3(reference::direction(0.01 + 0.99 * random.uniform(), 6.0 * random.uniform()));
@@ -297,6 +299,31 @@ TEST_CASE("f cos and density of glass equal the double-precision twin") {
     CHECK(faulty(test::kRadianceFault) > 15000);
     CHECK(faulty(test::kPdfFault) > 15000);
     CHECK(test::validatedDevice().validationMessages() == 0);
+}
+
+TEST_CASE("glass that does not transmit is an opaque surface") {
+    Sweep sweep = randomSweep(20000);
+    std::vector<test::BsdfCase> opaque;
+    for (GlassCase& c : sweep.cases) {
+        c.transmission = 0.0f;
+        c.isSheet = true;
+        const reference::BsdfParameters material{Vec3(c.base), c.metallic, c.roughness, Vec3(c.f0),
+                                                 c.specular};
+        opaque.push_back({material, c.view});
+    }
+    for (glm::vec3& l : sweep.directions) l.z = std::abs(l.z);
+    const auto values = test::evaluateGlass(sweep.cases, sweep.directions);
+    const auto expected = test::evaluateBsdf(opaque, sweep.directions);
+    for (size_t i = 0; i < values.size(); ++i) {
+        const Twin twin(sweep.cases[i]);
+        const Vec3 l(sweep.directions[i]), f(expected[i].fCos);
+        const double tolerance = 64.0 * rounding() + 2.0 * turn(twin, l) / twin.ggx.alpha;
+        INFO("case " << i << ": " << values[i].fCos.x << " and " << f.x << ", pdf " << values[i].pdf
+                     << " and " << expected[i].pdf);
+        REQUIRE(reference::maxComponent(glm::abs(Vec3(values[i].fCos) - f)) <=
+                tolerance * reference::maxComponent(f) + 1e-12);
+        REQUIRE(std::abs(values[i].pdf - expected[i].pdf) <= tolerance * expected[i].pdf + 1e-12);
+    }
 }
 
 TEST_CASE("light scattered many times is the twin's") {

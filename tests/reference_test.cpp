@@ -1,8 +1,6 @@
 // The reference path tracer against answers known in closed form, and against itself.
-#include "tests/reference/path_tracer.h"
-#include "tests/reference/simple_scenes.h"
+#include "tests/reference/measure.h"
 #include "tests/reference/texture.h"
-#include "tests/reference/z_test.h"
 #include <catch2/catch_approx.hpp>
 #include <catch2/catch_test_macros.hpp>
 
@@ -11,23 +9,6 @@ using namespace irradia::reference;
 using Catch::Approx;
 
 namespace {
-
-struct Measured {
-    Vec3 mean{0.0}, sigma{0.0};
-};
-
-// Radiance towards the eye through a pinhole of hardly any width.
-Measured measure(const Scene& scene, const glm::vec3& eye, const glm::vec3& target, int maxBounces,
-                 int samples, LightStrategy strategy = LightStrategy::Mis) {
-    RenderSettings settings;
-    settings.width = settings.height = 4; // 16 streams, for the threads
-    settings.samples = samples / 16;
-    settings.maxBounces = maxBounces;
-    settings.strategy = strategy;
-    const ImageEstimate image =
-        blockMeans(PathTracer(scene).render(lookAt(eye, target, 1e-4f), settings), settings.width);
-    return {image.mean[0], glm::sqrt(image.variance[0])};
-}
 
 // Within `deviations` of its own noise, and the noise below half a percent of the value.
 void checkRadiance(const Measured& measured, double expected, double deviations = 4.0) {

@@ -82,7 +82,7 @@ private:
 
 // 2 int L mu dmu by the midpoint rule: cosines are those of the ends and middles of kMeanSteps even steps of
 // a table's column, loss(i, mu) is L at the i-th of them.
-constexpr uint32_t kMeanSteps = 252;
+constexpr uint32_t kMeanSteps = 126;
 
 template <typename Loss>
 double meanLoss(const std::vector<double>& cosines, Loss&& loss) {

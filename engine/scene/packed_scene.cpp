@@ -69,8 +69,9 @@ bool hasColors(const Scene& scene) {
     return std::ranges::any_of(scene.vertices, [](const Vertex& v) { return v.color != glm::vec4(1.0f); });
 }
 
+// Glass without a specular layer takes the layer's table too.
 bool isSpecular(const Material& m) {
-    return m.specular > 0.0f || m.metallic > 0.0f;
+    return m.specular > 0.0f || m.metallic > 0.0f || m.transmission > 0.0f;
 }
 
 bool isSheet(const Material& m) {

@@ -88,10 +88,19 @@ float reflectionProbability(Glass g, GlassView view, GlassFresnel fresnel) {
     return transmitted > 0.0 ? reflected / (reflected + transmitted) : 1.0;
 }
 
+// What comes back of a loss that the table has for w = 1 and the indices' F0. E is linear in F, of which this is the part
+// that is so; the rest returns nothing, so that no surface scatters more than it receives. Sheets lose the same by any F.
+float returnedShare(Bsdf b, Glass g) {
+    float indices = square((g.eta - 1.0) / (g.eta + 1.0));
+    float f0 = b.layerF90 > 0.0 ? b.layerF0 / b.layerF90 : 0.0;
+    float share = b.layerF90 * (f0 <= indices ? f0 / indices : (1.0 - f0) / (1.0 - indices));
+    return g.isSheet ? 1.0 : share;
+}
+
 // Lobes are chosen by estimates of their albedo: of facets as if all lay flat, of the rest exact. abc and mend are v's.
 GlassView prepareGlass(Bsdf b, Glass g, vec3 v, vec3 abc, float mend, GlassLosses losses) {
     bool isSmooth = b.alpha <= kMinAlpha;
-    float loss = isSmooth ? 0.0 : losses.view;
+    float loss = isSmooth ? 0.0 : losses.view * returnedShare(b, g);
     float sides = max(losses.near + losses.far, 1e-12);
     GlassView view;
     view.transmits = isSmooth && g.isSheet ? 0.0 : 1.0;

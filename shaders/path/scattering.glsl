@@ -63,6 +63,10 @@ vec3 leavingPoint(Surface s, vec3 l) {
 
 uint leavingMedia(Surface s, vec3 l) { return l.z < 0.0 ? s.mediaBeyond : s.mediaHere; }
 
+// What throughput is times, for roulette: within glass of index n radiance is n^2 times what it is without, and throughput
+// so much less.
+float rouletteScale(uint media) { return kHasGlass ? square(indexOf(innermost(media))) : 1.0; }
+
 // How the vertex' rays know it again as a receiver of light.
 uint receiverCode(Surface s) { return kHasGlass && s.isGlass ? kEitherSide : encodeOctahedral(s.shadingNormal); }
 

@@ -24,7 +24,7 @@ SHARED_CONST uint kGlassAlphas = 24u;
 SHARED_CONST uint kGlassIndices = 20u;
 SHARED_CONST float kGlassMaxIndex = 2.6f;
 SHARED_CONST uint kGlassMeanAlphas = kTableRoughnesses; // their rows are those of the reflectance table
-SHARED_CONST uint kGlassMeanIndices = 20u;
+SHARED_CONST uint kGlassMeanIndices = 40u;
 
 SHARED_CONST uint kGlassSideQuads = kGlassCosines * (kGlassAlphas - 1u) * (kGlassIndices - 1u);
 SHARED_CONST uint kGlassMeanSideQuads = (kGlassMeanAlphas - 1u) * (kGlassMeanIndices - 1u);

@@ -17,7 +17,11 @@ Glass::Glass(const BsdfParameters& surface, const GlassParameters& glass)
     , ggx_{std::max(surface.roughness * surface.roughness, kMinAlpha)}
     , fresnel_{surface.f0, surface.specular, isSolid() ? glass.eta : 1.0}
     , energyHere_(isSolid() ? &GlassEnergy::ofInterface(glass.eta) : &GlassEnergy::ofSheet())
-    , energyThere_(isSolid() ? &GlassEnergy::ofInterface(1.0 / glass.eta) : energyHere_) {}
+    , energyThere_(isSolid() ? &GlassEnergy::ofInterface(1.0 / glass.eta) : energyHere_) {
+    if (!scattersManyTimes()) return;
+    lostHere_ = 1.0 - energyHere_->average(ggx_.alpha);
+    lostThere_ = (isSolid() ? glass.eta * glass.eta : 1.0) * (1.0 - energyThere_->average(ggx_.alpha));
+}
 
 double Glass::mend(double mu) const {
     const auto cosine = cosineInThinner(mu, fresnel_.eta);
@@ -64,14 +68,18 @@ Vec3 Glass::transmitted(const Vec3& v, const Vec3& l) const {
     return cosVH * -cosLH * ggx_.distribution(h) * visibility / (spread * spread) * tint;
 }
 
+double Glass::returnedShare() const {
+    if (!isSolid()) return 1.0;
+    const double indices = normalReflectance(g_.eta), f0 = std::min(maxComponent(p_.f0), 1.0);
+    return p_.specular * (f0 <= indices ? f0 / indices : (1.0 - f0) / (1.0 - indices));
+}
+
 Vec3 Glass::multiple(const Vec3& v, const Vec3& l) const {
     if (!scattersManyTimes()) return Vec3(0.0);
-    const double ratio = isSolid() ? g_.eta * g_.eta : 1.0; // n_l^2 / n_v^2
-    const double total =
-        kPi * (1.0 - energyHere_->average(ggx_.alpha) + ratio * (1.0 - energyThere_->average(ggx_.alpha)));
     const double lostV = 1.0 - energyHere_->albedo(v.z, ggx_.alpha);
     const double lostL = 1.0 - (l.z > 0.0 ? energyHere_ : energyThere_)->albedo(std::abs(l.z), ggx_.alpha);
-    const double scale = (1.0 - p_.metallic) * g_.transmission * lostV * lostL / total;
+    const double scale = returnedShare() * (1.0 - p_.metallic) * g_.transmission * lostV * lostL /
+                         (kPi * (lostHere_ + lostThere_));
     return l.z > 0.0 ? Vec3(scale) : scale * p_.baseColor;
 }
 
@@ -94,7 +102,8 @@ Glass::Chances Glass::chances(double cosV) const {
     const double tau = isClear() ? 0.0 : g_.transmission;
     Chances c{dielectric * (1.0 - g_.transmission) * through,
               dielectric * (luminance(f) + tau * through) + p_.metallic * luminance(metal(cosV)), 0.0};
-    if (scattersManyTimes()) c.multiple = dielectric * tau * (1.0 - energyHere_->albedo(cosV, ggx_.alpha));
+    if (scattersManyTimes())
+        c.multiple = returnedShare() * dielectric * tau * (1.0 - energyHere_->albedo(cosV, ggx_.alpha));
     const double sum = std::max(c.lambert + c.microfacet + c.multiple, 1e-12);
     const bool hasLambert = dielectric * (1.0 - g_.transmission) > 0.0;
     c = {hasLambert ? std::max(c.lambert, 0.1 * sum) : 0.0, std::max(c.microfacet, 0.1 * sum), c.multiple};
@@ -109,12 +118,6 @@ double Glass::reflectionChance(double cosVH) const {
     const double back = dielectric * luminance(f) + p_.metallic * luminance(metal(cosVH));
     const double on = dielectric * g_.transmission * (1.0 - maxComponent(f)) * luminance(p_.baseColor);
     return on > 0.0 ? back / (back + on) : 1.0;
-}
-
-double Glass::sameSideChance() const {
-    const double here = 1.0 - energyHere_->average(ggx_.alpha);
-    const double there = (isSolid() ? g_.eta * g_.eta : 1.0) * (1.0 - energyThere_->average(ggx_.alpha));
-    return here / (here + there);
 }
 
 // Of the visible normal H, times dH / dL.
@@ -140,7 +143,7 @@ double Glass::pdf(const Vec3& v, const Vec3& l) const {
         pdf = c.microfacet * transmittedPdf(v, l);
     }
     if (c.multiple == 0.0) return pdf;
-    const double side = l.z > 0.0 ? sameSideChance() : 1.0 - sameSideChance();
+    const double side = (l.z > 0.0 ? lostHere_ : lostThere_) / (lostHere_ + lostThere_);
     return pdf + c.multiple * side * std::abs(l.z) / kPi;
 }
 
@@ -160,7 +163,8 @@ BsdfSample Glass::sample(const Vec3& v, double uLobe, const Vec2& u) const {
     } else if (uLobe < c.microfacet + c.lambert) {
         sample.direction = cosineDirection;
     } else {
-        const bool isHere = uLobe - c.microfacet - c.lambert < c.multiple * sameSideChance();
+        const double share = (uLobe - c.microfacet - c.lambert) / c.multiple;
+        const bool isHere = share * (lostHere_ + lostThere_) < lostHere_;
         sample.direction = isHere ? cosineDirection : mirrored(cosineDirection);
     }
     sample.pdf = pdf(v, sample.direction);

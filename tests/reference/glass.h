@@ -54,6 +54,11 @@ public:
     // Factor of the Lambert lobe that keeps it within what reflection leaves, at cosine mu.
     double mend(double mu) const;
 
+    // Of what single scattering loses, the share that scattering many times gives back: E is that of w = 1
+    // and the indices' F0, and linear in F; what F is besides gives nothing back, which keeps the sum
+    // below 1. Of sheets all.
+    double returnedShare() const;
+
 private:
     struct Chances {
         double lambert, microfacet, multiple; // sum 1
@@ -65,7 +70,6 @@ private:
 
     Chances chances(double cosV) const;
     double reflectionChance(double cosVH) const; // of a microfacet rather than transmission
-    double sameSideChance() const;               // of scattering many times
 
     Vec3 lambert(const Vec3& v, const Vec3& l) const;
     Vec3 reflected(const Vec3& v, const Vec3& l) const;
@@ -80,6 +84,9 @@ private:
     DielectricFresnel fresnel_;
     const GlassEnergy* energyHere_;  // on V's side
     const GlassEnergy* energyThere_; // on the other
+    // What scattering many times gives to each side, as shares of light: 1 - Eavg, the other side's times
+    // (n_l / n_v)^2. Their sum times pi is N / n_v^2.
+    double lostHere_ = 0.0, lostThere_ = 0.0;
 };
 
 } // namespace irradia::reference

@@ -77,7 +77,8 @@ GlassAlbedo directionalAlbedo(const Glass& glass, double mu) {
     const GlassEnergy& there = isSolid ? GlassEnergy::ofInterface(1.0 / g.eta) : here;
     const double lostHere = 1.0 - here.average(alpha);
     const double lostThere = (isSolid ? g.eta * g.eta : 1.0) * (1.0 - there.average(alpha));
-    const double many = dielectric * tau * (1.0 - here.albedo(mu, alpha)) / (lostHere + lostThere);
+    const double many =
+        glass.returnedShare() * dielectric * tau * (1.0 - here.albedo(mu, alpha)) / (lostHere + lostThere);
     albedo.reflected += many * lostHere;
     albedo.transmitted += many * lostThere * p.baseColor;
     return albedo;

@@ -89,7 +89,7 @@ double GlassEnergy::albedo(double mu, double alpha) const {
     const Stencil columns(warp(mu, alpha) * (kCosines - 1), kCosines);
     double sum = 0.0;
     for (int i = 0; i < 4; ++i) sum += rows.weight[i] * columns(row(rows.first + i).albedo);
-    return sum;
+    return std::min(sum, 1.0); // nearly 1 where the surface is all but smooth
 }
 
 double GlassEnergy::average(double alpha) const {

@@ -11,8 +11,8 @@
 namespace irradia::reference {
 
 // One side of an interface; V and L of this side share it. E comes from a grid in alpha and mu with cubic
-// interpolation, error < 2e-5 (reference_glass_test shows it). The grid's rows are made when they are first
-// needed, by any thread: some 50 ms each.
+// interpolation, error < 2e-5 (reference_glass_energy_test shows it). The grid's rows are made when they are
+// first needed, by any thread: some 20 ms each.
 class GlassEnergy {
 public:
     // Of the side of V, eta = n_l / n_v. Kept for the life of the program.

@@ -11,11 +11,15 @@ Interpolated interpolate(const Scene& scene, const Triangle& triangle, const Vec
     const auto blend = [&](const auto& x, const auto& y, const auto& z) {
         return (1.0 - uv.x - uv.y) * x + uv.x * y + uv.y * z;
     };
+    // Exact where all corners agree: a cutoff at 1 may stand beside an alpha of 1.
+    const glm::dvec4 first(a.color);
+    const glm::dvec4 color =
+        first + uv.x * (glm::dvec4(b.color) - first) + uv.y * (glm::dvec4(c.color) - first);
     return {blend(Vec3(a.normal), Vec3(b.normal), Vec3(c.normal)),
             blend(glm::dvec4(a.tangent), glm::dvec4(b.tangent), glm::dvec4(c.tangent)),
             {blend(Vec2(a.uv[0]), Vec2(b.uv[0]), Vec2(c.uv[0])),
              blend(Vec2(a.uv[1]), Vec2(b.uv[1]), Vec2(c.uv[1]))},
-            blend(glm::dvec4(a.color), glm::dvec4(b.color), glm::dvec4(c.color))};
+            color};
 }
 
 glm::dvec4 lookUp(const Scene& scene, const TextureRef& texture, const Interpolated& at, Encoding encoding) {

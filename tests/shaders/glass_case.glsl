@@ -1,7 +1,7 @@
 // A transmissive material and a view direction, the input of glass's harness kernels, and what a path's vertex computes
 // from them before it evaluates or samples. Bindings: `cases` (4 records each), `reflectanceTable` and `glassTable`.
-//   0: base colour rgb, metallic;  1: dielectric f0 rgb (of the pair of media), specular factor
-//   2: view xyz (local), roughness;  3: eta, transmission, 1 of sheets
+//   0: base colour rgb, metallic;  1: dielectric f0 rgb (of the material in air), specular factor
+//   2: view xyz (local), roughness;  3: eta, transmission, 1 of sheets, ior of the material
 #include "faults.glsl"
 #include "lib/glass.glsl"
 #include "lib/rng.glsl"
@@ -23,9 +23,11 @@ GlassCase loadCase(uint index) {
     vec4 c2 = uintBitsToFloat(loadQuad(cases, 4u * index + 2u));
     vec4 c3 = uintBitsToFloat(loadQuad(cases, 4u * index + 3u));
     GlassCase c;
-    c.bsdf = makeBsdf(c0.rgb, c0.w, c2.w, c1.rgb, c1.w);
+    bool isSheet = c3.z > 0.0;
+    vec3 f0 = c1.rgb * (isSheet ? 1.0 : pairReflectance(c3.w, c3.x));
+    c.bsdf = makeBsdf(c0.rgb, c0.w, c2.w, f0, c1.w);
     c.bsdf.diffuse *= 1.0 - c3.y;
-    c.glass = makeGlass(c0.rgb, c0.w, c3.y, c1.rgb, c1.w, c3.x, c3.z > 0.0);
+    c.glass = makeGlass(c0.rgb, c0.w, c3.y, f0, c1.w, c3.x, isSheet);
     c.v = c2.xyz;
     c.roughness = c2.w;
     vec3 abc = reflectanceAt(thinCosine(c.glass, c.v.z), c.roughness);

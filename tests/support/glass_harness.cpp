@@ -4,6 +4,7 @@
 #include "engine/scene/reflectance_table.h"
 #include "kernels/shaders.h"
 #include "tests/support/bsdf_harness.h"
+#include <algorithm>
 
 namespace irradia::test {
 
@@ -11,6 +12,7 @@ GlassCase whiteGlass(double eta, double roughness, double mu) {
     GlassCase c;
     const double f0 = (eta - 1.0) / (eta + 1.0);
     c.f0 = glm::vec3(static_cast<float>(f0 * f0));
+    c.ior = static_cast<float>(std::max(eta, 1.0 / eta));
     c.eta = static_cast<float>(eta);
     c.roughness = static_cast<float>(roughness);
     c.view = glm::vec3(reference::direction(mu, 0.3));
@@ -29,7 +31,7 @@ Buffer caseBuffer(const std::vector<GlassCase>& cases) {
         records.emplace_back(c.base, c.metallic);
         records.emplace_back(c.f0, c.specular);
         records.emplace_back(c.view, c.roughness);
-        records.emplace_back(c.eta, c.transmission, c.isSheet ? 1.0f : 0.0f, 0.0f);
+        records.emplace_back(c.eta, c.transmission, c.isSheet ? 1.0f : 0.0f, c.ior);
     }
     return quadBuffer(records);
 }

@@ -10,7 +10,8 @@ namespace irradia::test {
 struct GlassCase {
     glm::vec3 base{1.0f};
     float metallic = 0.0f;
-    glm::vec3 f0{0.04f}; // of the pair of media
+    glm::vec3 f0{0.04f}; // of the material in air
+    float ior = 1.5f;
     float specular = 1.0f;
     float roughness = 0.5f;
     float eta = 1.5f;

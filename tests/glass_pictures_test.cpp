@@ -1,0 +1,101 @@
+// Glass, screens, sheets and lamps without extent in whole pictures: against the reference path tracer, pixel
+// by pixel, and in a white furnace.
+#include "tests/reference/glass_scenes.h"
+#include "tests/reference/path_tracer.h"
+#include "tests/reference/simple_scenes.h"
+#include "tests/reference/z_test.h"
+#include "tests/support/gpu_render.h"
+#include "tests/support/validated_device.h"
+#include <catch2/catch_test_macros.hpp>
+#include <cmath>
+
+using namespace irradia;
+
+namespace {
+
+constexpr int kSize = 40;
+
+Device& device() {
+    return test::deviceWith(QuadAccess::Texel);
+}
+
+PathTracerOptions picture(uint32_t size, uint32_t maxBounces) {
+    PathTracerOptions options;
+    options.width = options.height = size;
+    options.maxBounces = maxBounces;
+    return options;
+}
+
+// By the path tracer on the device, and by the reference.
+void agreeOn(const Scene& scene, uint32_t frames, int samples) {
+    constexpr int kBounces = 12;
+    const FilmImage film =
+        test::GpuRenderer(device(), scene).render(scene.cameras.at(0), picture(kSize, kBounces), frames);
+    for (const glm::vec3& v : film.mean) REQUIRE(std::isfinite(v.x + v.y + v.z));
+    reference::RenderSettings settings;
+    settings.width = settings.height = kSize;
+    settings.samples = samples;
+    settings.maxBounces = kBounces;
+    const auto cpu = reference::PathTracer(scene).render(scene.cameras.at(0), settings);
+    const auto gpu = test::toEstimate(film);
+    const auto agrees = [&](const reference::ImageEstimate& estimate) {
+        const reference::ZTestResult result = reference::zTest(estimate, cpu);
+        WARN(result.summary());
+        return result.accepted() && std::abs(result.meanRatio - 1.0) < 0.005 + 3.0 * result.meanRatioSigma;
+    };
+    CHECK(agrees(gpu));
+    auto brighter = gpu; // 3 % more light must be seen
+    for (auto& v : brighter.mean) v *= 1.03;
+    for (auto& v : brighter.variance) v *= 1.03 * 1.03;
+    CHECK_FALSE(agrees(brighter));
+    CHECK(device().validationMessages() == 0);
+}
+
+} // namespace
+
+TEST_CASE("a ball of smooth glass agrees with the reference, flat or smooth-shaded") {
+    agreeOn(reference::glassBall(false), 256, 384);
+    agreeOn(reference::glassBall(true), 256, 384);
+}
+
+TEST_CASE("a rough, coloured, absorbing slab agrees with the reference") {
+    agreeOn(reference::roughSlab(), 256, 384);
+}
+
+TEST_CASE("a coloured ball within a clear one agrees with the reference") {
+    agreeOn(reference::nestedBalls(), 256, 384);
+}
+
+TEST_CASE("screens, masks, sheets, colours of vertices and turned pictures agree with the reference") {
+    agreeOn(reference::screens(), 256, 384);
+}
+
+TEST_CASE("points, spots and directional lights agree with the reference") {
+    agreeOn(reference::punctualRoom(), 256, 384);
+}
+
+TEST_CASE("white glass in a white furnace is white, at any roughness") {
+    // A cube, whose faces' normals are its own: no ray is lost between shading and geometry.
+    for (const float roughness : {0.0f, 0.3f, 1.0f})
+        for (const bool isSolid : {true, false}) {
+            INFO((isSolid ? "solid" : "sheets") << " of roughness " << roughness);
+            Scene scene;
+            scene.environment.constant = glm::vec3(1.0f);
+            const uint32_t glass = reference::addMaterial(
+                scene, isSolid ? reference::solidGlass(1.5f, roughness) : reference::glassSheet(roughness));
+            reference::addCuboid(scene, glass, glm::vec3(-1.0f), glm::vec3(1.0f));
+            const Camera camera = reference::lookAt({1.9f, 2.3f, 2.9f}, glm::vec3(0.0f), 0.45f);
+            PathTracerOptions options = picture(16, 64);
+            options.samplesPerFrame = 32;
+            const FilmImage film = test::GpuRenderer(device(), scene).render(camera, options, 16);
+            double mean = 0.0, variance = 0.0;
+            for (size_t i = 0; i < film.mean.size(); ++i) {
+                mean += film.mean[i].y / double(film.mean.size());
+                variance += film.variance[i].y / double(film.mean.size() * film.mean.size());
+            }
+            const double sigma = std::sqrt(variance); // 0.003 at most
+            WARN("mean " << mean << " +- " << sigma);
+            CHECK(std::abs(mean - 1.0) < 0.002 + 3.0 * sigma);
+            CHECK(sigma < 0.004);
+        }
+}

@@ -75,7 +75,7 @@ void Glazier::glazeRoof() {
     };
     for (uint32_t i = 0; i < kBays; i++) {
         for (uint32_t row = 0; row < kRows; row++) {
-            const int lowest = i == 6 ? materials_.frosted : materials_.clear;
+            const int lowest = i == 8 ? materials_.frosted : materials_.clear;
             addPane(row == 0 ? lowest : materials_.clear,
                     {at(i + 1, row), at(i + 1, row + 1), at(i, row + 1), at(i, row)});
         }

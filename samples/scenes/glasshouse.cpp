@@ -57,9 +57,11 @@ void Glazier::glazeSide() {
             addPane(glass, {{{x, y0, z1}, {x, y0, z0}, {x, y1, z0}, {x, y1, z1}}});
         };
         add(materials_.clear, house_.plinth, middle);
-        const bool isFrosted = i == 3 || i == 6;
-        const int above = i == 4 ? materials_.amber : i == 1 ? materials_.green : materials_.clear;
-        add(isFrosted ? materials_.frosted : above, middle, house_.eave);
+        add(i == 3   ? materials_.frosted
+            : i == 4 ? materials_.amber
+            : i == 1 ? materials_.green
+                     : materials_.clear,
+            middle, house_.eave);
         addBar(bars_, {x, house_.plinth, z0}, {x, house_.eave, z0}, 0.025f);
     }
     for (float y : {house_.plinth, middle, house_.eave})
@@ -72,9 +74,11 @@ void Glazier::glazeRoof() {
         return glm::vec3(x, house_.roof(x), step(house_.lower.z, house_.upper.z, bay, kBays));
     };
     for (uint32_t i = 0; i < kBays; i++) {
-        for (uint32_t row = 0; row < kRows; row++)
-            addPane(i == 7 && row == 1 ? materials_.green : materials_.clear,
+        for (uint32_t row = 0; row < kRows; row++) {
+            const int lowest = i == 8 ? materials_.frosted : materials_.clear;
+            addPane(row == 0 ? lowest : materials_.clear,
                     {at(i + 1, row), at(i + 1, row + 1), at(i, row + 1), at(i, row)});
+        }
         addBar(bars_, at(i, 0), at(i, kRows), 0.022f);
     }
     for (uint32_t row = 1; row <= kRows; row++) addBar(bars_, at(0, row), at(kBays, row), 0.028f);

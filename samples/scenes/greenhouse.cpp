@@ -18,9 +18,9 @@ namespace irradia::scenes {
 namespace {
 
 constexpr LeanTo kHouse{{-1.7f, 0.0f, -3.4f}, {1.7f, 3.1f, 2.8f}, 0.5f, 1.9f};
-constexpr View kView{{0.35f, 1.45f, 2.5f}, {-0.15f, 0.9f, -1.2f}, 56.0f};
+constexpr View kView{{0.35f, 1.45f, 2.5f}, {-0.15f, 0.84f, -1.2f}, 56.0f};
 constexpr glm::vec3 kSunlight{-0.8f, 0.56f, -0.36f}; // the sun's direction
-constexpr glm::vec3 kSunIrradiance{9.0f, 8.0f, 6.6f}, kSky{0.42f, 0.55f, 0.75f};
+constexpr glm::vec3 kSunIrradiance{9.5f, 8.4f, 6.8f}, kSky{0.31f, 0.42f, 0.58f};
 constexpr float kBenchHeight = 0.72f;
 
 int addPane(GlbWriter& glb, const char* name, glm::vec3 color, float roughness = 0.0f) {
@@ -40,7 +40,7 @@ void addHouse(GlbWriter& glb) {
         .bricks = glb.addMaterial({.name = "bricks",
                                    .baseColor = glm::vec3(1.0f),
                                    .baseColorTexture = glb.addTexture(
-                                       "bricks", bricks(512, {0.74f, 0.7f, 0.63f}, {0.5f, 0.27f, 0.18f}))}),
+                                       "bricks", bricks(512, {0.6f, 0.55f, 0.48f}, {0.47f, 0.24f, 0.15f}))}),
         .clear = addPane(glb, "clear glass", glm::vec3(0.95f)),
         .green = addPane(glb, "green glass", {0.35f, 0.8f, 0.4f}),
         .amber = addPane(glb, "amber glass", {0.93f, 0.58f, 0.16f}),
@@ -80,12 +80,12 @@ void addGarden(GlbWriter& glb) {
     const auto ground = [](float u, float v) {
         return glm::vec3(40.0f * u - 20.0f, -0.12f, 20.0f - 40.0f * v);
     };
-    Mesh garden = grow(ground, 40, 40, {0.1f, 0.2f, 0.04f}, {0.2f, 0.3f, 0.08f});
+    Mesh garden = grow(ground, 24, 24, {0.1f, 0.2f, 0.04f}, {0.2f, 0.3f, 0.08f});
     const auto hedge = [&](float u, float v) {
         const float x = 16.0f * u - 8.0f, y = 1.9f * v;
-        return glm::vec3(x, y - 0.1f, 0.18f * bumps(2.0f * x, 3.0f * y) + 0.2f - v * v * 0.5f);
+        return glm::vec3(x, y - 0.1f, 0.12f * bumps(0.7f * x, 1.1f * y) + 0.2f - v * v * 0.5f);
     };
-    const Mesh green = grow(hedge, 80, 12, {0.05f, 0.13f, 0.03f}, {0.15f, 0.27f, 0.06f});
+    const Mesh green = grow(hedge, 64, 10, {0.05f, 0.13f, 0.03f}, {0.15f, 0.27f, 0.06f});
     garden.append(green, translation({0.0f, 0.0f, -9.0f}));
     garden.append(green, translation({-8.0f, 0.0f, -1.0f}) * rotationY(90.0f));
     glb.add("garden", garden, grown);
@@ -106,7 +106,7 @@ void addNet(GlbWriter& glb) {
         return glm::vec3(x, kHouse.roof(x) - 0.05f - sag, z);
     };
     Mesh mesh = openSheet(surface, 8, 60);
-    for (glm::vec2& uv : mesh.uvs) uv *= glm::vec2(3.0f, 12.0f);
+    for (glm::vec2& uv : mesh.uvs) uv *= glm::vec2(5.0f, 20.0f);
     glb.add("shade net", mesh, cloth);
 }
 
@@ -117,7 +117,7 @@ void addStillLife(GlbWriter& glb, Greenery& plants, int wood, const glm::mat4& p
                                        .roughness = 0.0f,
                                        .transmission = 1.0f,
                                        .thickness = 0.006f,
-                                       .attenuationDistance = 0.02f,
+                                       .attenuationDistance = 0.03f,
                                        .attenuationColor = {0.45f, 0.8f, 0.7f}});
     glb.add("carafe", carafe(), glass, place * translation({-0.03f, top + 0.001f, -0.03f}));
     plants.fruits.append(lemon(), place * translation({0.09f, top + 0.034f, 0.03f}) * rotationZ(85.0f));
@@ -143,13 +143,14 @@ void addPlants(GlbWriter& glb, Greenery& plants) {
     addLemonTree(plants, pots.place({1.05f, 0.0025f, -1.55f}, 1.35f, 0.0f), 1.5f, 21);
     addSlitLeaved(plants, pots.place({0.55f, 0.0025f, -2.85f}, 1.3f, 0.0f), 1.35f, 22);
     addSlitLeaved(plants, pots.place({-0.45f, 0.0025f, -2.95f}, 1.0f, 0.0f), 0.9f, 23);
-    addBush(plants, pots.place({1.3f, 0.0025f, -0.6f}, 1.0f, 0.0f), 0.6f, blossoms[1], 24);
-    addClimber(plants, translation({kHouse.upper.x - 0.02f, 0.0f, 0.9f}) * rotationY(-90.0f), {1.2f, 2.1f},
+    addSlitLeaved(plants, pots.place({-1.3f, 0.0025f, 1.3f}, 1.3f, 0.0f), 1.25f, 26);
+    addBush(plants, pots.place({1.35f, 0.0025f, -0.75f}, 1.0f, 0.0f), 0.55f, blossoms[1], 24);
+    addClimber(plants, translation({kHouse.upper.x - 0.02f, 0.0f, -0.75f}) * rotationY(-90.0f), {1.5f, 2.2f},
                25);
-    for (float z : {-0.85f, -2.1f}) {
-        const float x = -0.55f;
-        const glm::mat4 basket = pots.hang({x, 1.5f, z}, 0.75f, kHouse.roof(x));
-        addBush(plants, basket, 0.25f, blossoms[0], 31);
+    for (float z : {-0.2f, -1.9f}) {
+        const float x = z > -1.0f ? -0.75f : -0.25f;
+        const glm::mat4 basket = pots.hang({x, 1.5f, z}, 0.85f, kHouse.roof(x));
+        addBush(plants, basket, 0.28f, blossoms[0], 31);
         addTrailing(plants, basket, 0.6f, 32);
     }
 }
@@ -191,7 +192,7 @@ void writeGreenhouse(const std::filesystem::path& folder) {
     addStillLife(glb, plants, wood, translation({0.72f, 0.0025f, 0.75f}));
     addPlants(glb, plants);
     addGreenery(glb, plants);
-    addWateringCan(glb, translation({-0.45f, 0.0025f, -0.35f}) * rotationY(-30.0f), zinc);
+    addWateringCan(glb, translation({-0.3f, 0.0025f, 0.25f}) * rotationY(-30.0f), zinc);
     glb.addSun("sun", -kSunlight, kSunIrradiance);
     glb.addCamera("camera", kView.eye, kView.target, kView.verticalFovDegrees);
     glb.write(folder / "greenhouse.glb");

@@ -30,7 +30,7 @@ void addLeaf(Mesh& leaves, Mesh shape, float age, const glm::mat4& place) {
 
 void addStem(Greenery& plants, glm::vec3 from, glm::vec3 to, float radius, glm::vec3 color,
              const glm::mat4& place) {
-    Mesh stem = frustum(radius, 0.7f * radius, glm::distance(from, to), 5);
+    Mesh stem = frustum(radius, 0.7f * radius, glm::distance(from, to), radius < 0.005f ? 4 : 6);
     plants.stems.append(stem.paint(color), place * standing(from, to));
 }
 
@@ -45,8 +45,8 @@ glm::mat4 pointing(glm::vec3 at, float turn, float rise, float roll = 0.0f) {
 }
 
 void addBlossom(Greenery& plants, const glm::mat4& place, glm::vec3 color, Random& random) {
-    for (int i = 0; i < 7; i++) {
-        Mesh floret = icosphere(1);
+    for (int i = 0; i < 10; i++) {
+        Mesh floret = icosphere(0);
         const glm::vec3 at = 0.028f * direction(random.between(0.0f, 360.0f), random.between(-20.0f, 90.0f));
         floret.paint(color * random.between(0.75f, 1.0f));
         plants.fruits.append(floret, place * translation(at) * scaling(glm::vec3(0.015f)));
@@ -65,7 +65,7 @@ void addBush(Greenery& plants, const glm::mat4& place, float height, glm::vec3 b
         for (int j = 0; j < 9; j++) {
             const float t = 0.3f + 0.085f * static_cast<float>(j);
             const float size = height * random.between(0.2f, 0.34f);
-            addLeaf(plants.toothed, leaf(size, 0.75f * size, 0.3f, 3),
+            addLeaf(plants.toothed, leaf(size, 0.75f * size, 0.3f, 2),
                     random.between(0.2f, 1.0f) * (1.2f - t),
                     place * pointing(t * top, turn + kGoldenAngle * static_cast<float>(j),
                                      random.between(-15.0f, 45.0f), random.between(-25.0f, 25.0f)));
@@ -103,7 +103,7 @@ void addLemonTree(Greenery& plants, const glm::mat4& place, float height, uint32
         addStem(plants, fork, top, 0.006f, kBark, place);
         for (int j = 0; j < 6; j++) {
             const glm::vec3 at = glm::mix(fork, top, 0.6f + 0.08f * static_cast<float>(j));
-            addLeaf(plants.toothed, leaf(random.between(0.1f, 0.15f), 0.06f, 0.25f, 3),
+            addLeaf(plants.toothed, leaf(random.between(0.1f, 0.15f), 0.06f, 0.25f, 2),
                     random.between(0.3f, 1.0f),
                     place * pointing(at, turn + random.between(-80.0f, 80.0f),
                                      rise * 0.5f + random.between(-30.0f, 30.0f),
@@ -127,7 +127,7 @@ void addClimber(Greenery& plants, const glm::mat4& place, glm::vec2 size, uint32
             addStem(plants, at, next, 0.004f, kBark, place);
             for (float side : {-1.0f, 1.0f}) {
                 const float length = random.between(0.09f, 0.17f);
-                addLeaf(plants.toothed, leaf(length, 0.8f * length, 0.3f, 3),
+                addLeaf(plants.toothed, leaf(length, 0.8f * length, 0.3f, 2),
                         random.between(0.0f, 0.9f) * (1.1f - at.y / size.y),
                         place * translation(at) * rotationZ(side * random.between(-20.0f, 110.0f)) *
                             rotationX(random.between(25.0f, 75.0f)));
@@ -158,7 +158,7 @@ void addTrailing(Greenery& plants, const glm::mat4& place, float length, uint32_
 
 Mesh lemon() {
     Mesh mesh;
-    mesh.append(sphere(0.034f, 16, 10), scaling({1.0f, 1.35f, 1.0f}));
+    mesh.append(sphere(0.034f, 14, 9), scaling({1.0f, 1.35f, 1.0f}));
     for (glm::vec3 p : mesh.positions)
         mesh.colors.push_back(glm::mix(glm::vec3(0.85f, 0.62f, 0.05f), glm::vec3(0.35f, 0.45f, 0.05f),
                                        glm::smoothstep(0.0f, 0.045f, p.y)));

@@ -189,7 +189,7 @@ Rgba8Image slitLeaf(int size, glm::vec3 blade, glm::vec3 vein) {
 Rgba8Image net(int size, glm::vec3 color) {
     return paintRgba(size, size, [&](float u, float v) {
         const bool isBand = fromWhole(6.0f * u) < 0.34f || fromWhole(6.0f * v) < 0.22f;
-        return glm::vec4(asSrgb(color * (0.9f + 0.1f * noise(u, v, {48, 48}, 61))), isBand ? 0.9f : 0.3f);
+        return glm::vec4(asSrgb(color * (0.9f + 0.1f * noise(u, v, {48, 48}, 61))), isBand ? 0.9f : 0.4f);
     });
 }
 

@@ -30,7 +30,7 @@ Rgba8Image toothedLeaf(int size, glm::vec3 blade, glm::vec3 vein);
 // One that is slit between its side veins, and holed beside the middle one.
 Rgba8Image slitLeaf(int size, glm::vec3 blade, glm::vec3 vein);
 
-// Woven bands; alpha is 0.9 in them and 0.3 between.
+// Woven bands; alpha is 0.9 in them and 0.4 between.
 Rgba8Image net(int size, glm::vec3 color);
 
 // An abstract landscape for a picture frame; covers 0..1 once.

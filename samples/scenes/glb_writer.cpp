@@ -153,7 +153,9 @@ void GlbWriter::add(const std::string& name, const Mesh& mesh, int material, con
 int GlbWriter::addLight(const GltfLight& l) {
     useExtension("KHR_lights_punctual");
     const bool isSpot = l.cone.y > 0.0f;
-    Json light = {{"type", l.isSun ? "directional" : isSpot ? "spot" : "point"},
+    Json light = {{"type", l.isSun  ? "directional"
+                           : isSpot ? "spot"
+                                    : "point"},
                   {"color", numbers(glm::value_ptr(l.color), 3)},
                   {"intensity", l.intensity}};
     if (isSpot) light["spot"] = {{"innerConeAngle", l.cone.x}, {"outerConeAngle", l.cone.y}};

@@ -22,10 +22,12 @@ const VertexKernels kUniformLights{
     &kernels::handle_escaped_rays_uniform_lights, &kernels::handle_emissive_hits_uniform_lights,
     &kernels::scatter_uniform_lights, &kernels::add_direct_light, &kernels::add_filtered_light};
 
-// Triangles that give light and reflect it, under a sky with a sun; seen from among them.
+// Triangles that give light and reflect it, under a sky with a sun, and lights of all other kinds; seen from
+// among them.
 struct Lit {
     Lit() {
-        scene = test::manyEmitters(5); // fewer than the hierarchy begins with
+        scene = test::manyEmitters(5);
+        test::addPunctualLights(scene, 1, 1, 1); // fewer local lights than the hierarchy begins with
         scene.environment = test::skyWithSun(16, 8);
         camera.position = glm::vec3(0.0f);
         camera.forward = glm::vec3(0, 0, -1);

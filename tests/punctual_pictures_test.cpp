@@ -188,8 +188,9 @@ Scene mixedScene(int triangles, int lamps, uint64_t seed) {
     for (int i = 0; i < lamps; ++i) {
         scene.lights.push_back(pointAt(anywhere(0.5, 1.5), {random.uniform(), 0.5, random.uniform()}));
         if (i % 3 == 0) scene.lights.back().range = static_cast<float>(1.0 + 2.0 * random.uniform());
-        PunctualLight spot = spotAt(anywhere(0.5, 1.5), anywhere(0.0, 0.0), 20.0 * random.uniform(),
-                                    20.0 + 50.0 * random.uniform());
+        const double outer = 20.0 + 50.0 * random.uniform(),
+                     inner = i % 4 == 0 ? outer : 20.0 * random.uniform();
+        PunctualLight spot = spotAt(anywhere(0.5, 1.5), anywhere(0.0, 0.0), inner, outer);
         spot.intensity = {1.0, random.uniform(), random.uniform()};
         scene.lights.push_back(spot);
     }

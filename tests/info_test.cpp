@@ -486,6 +486,17 @@ TEST_CASE("validate warns of what a renderer can live with, and loading does not
         CHECK(warning.find("ACCESSOR") == std::string::npos);
 }
 
+TEST_CASE("validate takes animations of any shape") {
+    const TempFolder folder;
+    for (const char* text :
+         {R"({"a": [1]})", "3", R"([{"channels": {"a": 1}, "samplers": 2}])",
+          R"([{"channels": [{"sampler": 0}, {"sampler": 0, "target": [1]}], "samplers": []}])"}) {
+        CAPTURE(text);
+        const auto file = spoiled(folder, [&](Json& json) { json["animations"] = Json::parse(text); });
+        CHECK(hasErrors(validateScene(file)) == !loadingError(file).empty());
+    }
+}
+
 TEST_CASE("validate takes several files and passes those without errors") {
     const TempFolder folder;
     const std::string good = folder.write("good.glb", lamps().glb()).string();

@@ -18,13 +18,13 @@ public:
         , json_(Json::parse(jsonText(source))) {}
 
     void inspectAll() const {
-        const Json animations = member(json_, "animations");
+        const Json animations = elements(json_, "animations");
         for (size_t i = 0; i < animations.size(); ++i) {
             const Json name = member(animations[i], "name");
             const Thing owner =
                 thing("animation", "animations", i, name.is_string() ? name.get<std::string>() : "");
-            const Json samplers = member(animations[i], "samplers"),
-                       channels = member(animations[i], "channels");
+            const Json samplers = elements(animations[i], "samplers"),
+                       channels = elements(animations[i], "channels");
             for (size_t s = 0; s < samplers.size(); ++s)
                 for (const char* key : {"input", "output"})
                     inspectIndex(owner.at("samplers").at(s), samplers[s], key, "accessor",
@@ -38,12 +38,18 @@ public:
     }
 
 private:
-    // Null where there is none; so it is of what is no object, or no array where elements are asked for.
+    // Of what is an object and an array; else none.
+    static Json elements(const Json& json, const char* key) {
+        Json array = member(json, key);
+        return array.is_array() ? array : Json::array();
+    }
+
+    // Null where there is none, as of what is no object.
     static Json member(const Json& json, const char* key) {
         return json.is_object() ? json.value(key, Json()) : Json();
     }
 
-    // Whether the index of that name, where there is one, names what is there.
+    // The index of that name, where there is one and it names what is there.
     std::optional<size_t> inspectIndex(const Thing& owner, const Json& json, const char* key,
                                        std::string_view kind, size_t count) const {
         const Json index = member(json, key);

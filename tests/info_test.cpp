@@ -24,6 +24,7 @@
 #include <random>
 #include <sstream>
 #include <sys/wait.h>
+#include <webp/encode.h>
 
 using namespace irradia;
 using namespace irradia::test;
@@ -275,6 +276,11 @@ TEST_CASE("info of other pictures is their size") {
     const std::string jpeg = asString(makeJpeg(JpegForm::Colour, 2, 1, std::vector<uint8_t>(6, 99)));
     check("a.jpg", jpeg, "jpeg");
     check("picture_of_a_wrong_name.txt", jpeg, "jpeg");
+    uint8_t* webp = nullptr;
+    const std::vector<uint8_t> texels(8, 99);
+    const size_t size = WebPEncodeLosslessRGBA(texels.data(), 2, 1, 8, &webp);
+    check("a.webp", std::string(webp, webp + size), "webp");
+    WebPFree(webp);
     checkRefused("info " + folder.write("cut.jpg", jpeg.substr(0, 20)).string(), 65, "cut.jpg");
 }
 
@@ -436,6 +442,59 @@ TEST_CASE("validate reads indices and pictures too") {
         if (finding.severity == Severity::Error) found.push_back(finding.code + " " + finding.pointer);
     CHECK(found == std::vector<std::string>{"IMAGE_DATA_INVALID /images/0",
                                             "ACCESSOR_INDEX_OOB /meshes/0/primitives/0/indices"});
+}
+
+TEST_CASE("validate warns of what a renderer can live with, and loading does not") {
+    const TempFolder folder;
+    GltfBuilder builder = lamps();
+    Json& attributes = builder.json["meshes"][0]["primitives"][0]["attributes"];
+    attributes["NORMAL"] = builder.vec3({{0, 0, 1}, {0, 0, 2}, {0, 0, 1.005f}, {0, 0, 0}});
+    builder.json["accessors"][0]["min"] = {0, 0, -1};
+    builder.json["accessors"][0]["max"] = {2, 2, 0};
+    const int packed = builder.accessor(builder.view(std::vector<uint8_t>{7, 0, 200, 9}), 5121, 2, "SCALAR");
+    builder.json["accessors"][packed]["normalized"] = true;
+    builder.json["accessors"][packed]["byteOffset"] = 1;
+    builder.json["accessors"][packed]["max"] = {201};
+    const int odd = builder.accessor(builder.view(std::vector<uint8_t>(8)), 5123, 1, "SCALAR");
+    builder.json["accessors"][odd]["byteOffset"] = 1;
+    builder.json["nodes"].push_back({{"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}});
+    const Json channels = Json::parse(R"([{"sampler": 0, "target": {"path": "translation"}},
+        {"sampler": 3, "target": {"node": 3, "path": "rotation"}},
+        {"sampler": 0, "target": {"node": 2, "path": "weights"}},
+        {"sampler": 0, "target": {"node": 0, "path": "weights"}},
+        {"sampler": 0, "target": {"node": 44, "path": "colour"}}])");
+    builder.json["animations"] = {{{"channels", channels}, {"samplers", {{{"input", 0}, {"output", 99}}}}}};
+    const auto file = folder.write("scene.glb", builder.glb());
+    std::vector<std::string> found;
+    for (const Finding& finding : validateScene(file))
+        if (finding.severity == Severity::Warning) found.push_back(finding.code + " " + finding.pointer);
+    const std::string at = "/accessors/" + std::to_string(packed);
+    const std::string normals = "/accessors/" + std::to_string(attributes["NORMAL"].get<int>());
+    const std::string last = "/accessors/" + std::to_string(odd);
+    const std::string channel = "/animations/0/channels/";
+    CHECK(found == std::vector<std::string>{
+                       "ACCESSOR_MIN_MISMATCH /accessors/0/min/2", "ACCESSOR_MAX_MISMATCH " + at + "/max/0",
+                       "ACCESSOR_OFFSET_ALIGNMENT " + last + "/byteOffset",
+                       "ACCESSOR_TOTAL_OFFSET_ALIGNMENT " + last, "ACCESSOR_VECTOR3_NON_UNIT " + normals,
+                       "UNRESOLVED_REFERENCE /animations/0/samplers/0/output",
+                       "UNRESOLVED_REFERENCE " + channel + "1/sampler",
+                       "ANIMATION_CHANNEL_TARGET_NODE_MATRIX " + channel + "1/target/node",
+                       "ANIMATION_CHANNEL_TARGET_NODE_WEIGHTS_NO_MORPHS " + channel + "2/target/node",
+                       "UNRESOLVED_REFERENCE " + channel + "4/target/node",
+                       "VALUE_NOT_IN_LIST " + channel + "4/target/path"});
+    for (const std::string& warning : loadScene(file).notes.warnings)
+        CHECK(warning.find("ACCESSOR") == std::string::npos);
+}
+
+TEST_CASE("validate takes animations of any shape") {
+    const TempFolder folder;
+    for (const char* text :
+         {R"({"a": [1]})", "3", R"([{"channels": {"a": 1}, "samplers": 2}])",
+          R"([{"channels": [{"sampler": 0}, {"sampler": 0, "target": [1]}], "samplers": []}])"}) {
+        CAPTURE(text);
+        const auto file = spoiled(folder, [&](Json& json) { json["animations"] = Json::parse(text); });
+        CHECK(hasErrors(validateScene(file)) == !loadingError(file).empty());
+    }
 }
 
 TEST_CASE("validate takes several files and passes those without errors") {

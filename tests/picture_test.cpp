@@ -175,8 +175,8 @@ TEST_CASE("JPEG of inks becomes RGBA") {
     check(JpegForm::CmykPlain, {55, 155, 205, 127}, {100, 50, 25, 255});
 }
 
-TEST_CASE("what is neither PNG nor JPEG is refused by name") {
-    for (const char* text : {"", "\x89PN", "GIF89a", "RIFFxxxxWEBPVP8 ", "just text"}) {
+TEST_CASE("what is neither PNG, JPEG nor WebP is refused by name") {
+    for (const char* text : {"", "\x89PN", "GIF89a", "RIFFxxxxWAVEfmt ", "RIFFxxxxWEB", "just text"}) {
         const std::string bytes = text;
         expectError(ExitCode::BadData, "wood.png: neither", [&] {
             decodeImage({reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()}, "wood.png");

@@ -15,6 +15,12 @@ bool startsWith(std::span<const uint8_t> bytes, const std::array<uint8_t, N>& si
     return bytes.size() >= N && std::equal(signature.begin(), signature.end(), bytes.begin());
 }
 
+// A RIFF file: the length of what follows stands between its two names.
+bool isWebp(std::span<const uint8_t> bytes) {
+    constexpr std::array<uint8_t, 4> kRiff{'R', 'I', 'F', 'F'}, kWebp{'W', 'E', 'B', 'P'};
+    return bytes.size() >= 12 && startsWith(bytes, kRiff) && startsWith(bytes.subspan(8), kWebp);
+}
+
 } // namespace
 
 void checkDecodedSize(uint64_t width, uint64_t height, const std::string& name) {
@@ -27,7 +33,8 @@ void checkDecodedSize(uint64_t width, uint64_t height, const std::string& name) 
 Rgba8Image decodeImage(std::span<const uint8_t> bytes, const std::string& name) {
     if (startsWith(bytes, kPngSignature)) return decodePng(bytes, name);
     if (startsWith(bytes, kJpegSignature)) return decodeJpeg(bytes, name);
-    fail(ExitCode::BadData, "{}: neither a PNG nor a JPEG picture", name);
+    if (isWebp(bytes)) return decodeWebp(bytes, name);
+    fail(ExitCode::BadData, "{}: neither a PNG, a JPEG nor a WebP picture", name);
 }
 
 } // namespace irradia

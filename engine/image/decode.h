@@ -12,5 +12,6 @@ void checkDecodedSize(uint64_t width, uint64_t height, const std::string& name);
 
 Rgba8Image decodePng(std::span<const uint8_t> bytes, const std::string& name);
 Rgba8Image decodeJpeg(std::span<const uint8_t> bytes, const std::string& name);
+Rgba8Image decodeWebp(std::span<const uint8_t> bytes, const std::string& name);
 
 } // namespace irradia

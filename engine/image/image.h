@@ -46,7 +46,8 @@ LayeredImage readExr(const std::filesystem::path& file, const std::string& layer
 // Radiance .hdr (RGBE, plain and run-length coded).
 LayeredImage readHdr(const std::filesystem::path& file);
 
-// PNG and JPEG from memory, told apart by their first bytes; `name` is used in errors. At most 2^26 pixels.
+// PNG, JPEG and WebP from memory, told apart by their first bytes; `name` is used in errors. At most 2^26
+// pixels.
 Rgba8Image decodeImage(std::span<const uint8_t> bytes, const std::string& name);
 
 // 8-bit RGB, or RGBA where any pixel is not opaque; tagged sRGB.

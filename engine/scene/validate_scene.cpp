@@ -4,6 +4,7 @@
 #include "engine/scene/gltf/assemble.h"
 #include "engine/scene/gltf/explain.h"
 #include "engine/scene/gltf/features.h"
+#include "engine/scene/gltf/inspect.h"
 #include "engine/scene/gltf/materials.h"
 #include "engine/scene/gltf/parse.h"
 #include "engine/scene/gltf/primitives.h"
@@ -52,8 +53,12 @@ void check(const gltf::SourceFile& source) {
     } catch (const Error&) {
         refusal = std::current_exception();
     }
-    if (!refusal && source.findings->errors() == 0)
-        return readThrough(source, model, gltf::validateModel(source, model));
+    if (!refusal && source.findings->errors() == 0) {
+        const gltf::Soundness sound = gltf::validateModel(source, model);
+        if (sound.data) gltf::inspectAccessors(source, model);
+        gltf::inspectAnimations(source, model);
+        return readThrough(source, model, sound);
+    }
     const size_t before = source.findings->errors();
     gltf::reportSchemaFaults(source);
     if (refusal && source.findings->errors() == before)

@@ -26,6 +26,7 @@ constexpr Format kFormats[] = {{"glTF"sv, printSceneInfo},
                                {"#?"sv, printHdrInfo},
                                {"\x89PNG"sv, printScreenPictureInfo},
                                {"\xff\xd8\xff"sv, printScreenPictureInfo},
+                               {"RIFF"sv, printScreenPictureInfo},
                                {"IRRADNET"sv, printModelInfo}};
 
 // JSON that this program reads or writes and that is no scene, by a key of it.
@@ -54,7 +55,8 @@ std::string headOf(const std::filesystem::path& file) {
 
 [[noreturn]] void refuse(const std::filesystem::path& file, std::string_view name) {
     fail(ExitCode::BadData,
-         "{}: this is {}: info knows scenes (.gltf, .glb), pictures (EXR, HDR, PNG, JPEG) and saved models",
+         "{}: this is {}: info knows scenes (.gltf, .glb), pictures (EXR, HDR, PNG, JPEG, WebP) and saved "
+         "models",
          file.string(), name);
 }
 
@@ -105,7 +107,7 @@ void addInfo(CLI::App& program) {
     };
     auto options = std::make_shared<Options>();
     CLI::App* command = program.add_subcommand("info", "Show what a scene, a picture or a saved model holds");
-    command->add_option("file", options->file, "glTF scene, EXR, HDR, PNG, JPEG, or a saved model")
+    command->add_option("file", options->file, "glTF scene, EXR, HDR, PNG, JPEG, WebP, or a saved model")
         ->required()
         ->type_name("FILE");
     command->add_flag("--json", options->json, "Print one JSON object instead of a sheet");

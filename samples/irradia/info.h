@@ -8,7 +8,7 @@ namespace irradia {
 void printSceneInfo(const std::filesystem::path& file, bool asJson);
 void printExrInfo(const std::filesystem::path& file, bool asJson);
 void printHdrInfo(const std::filesystem::path& file, bool asJson);
-void printScreenPictureInfo(const std::filesystem::path& file, bool asJson); // PNG, JPEG
+void printScreenPictureInfo(const std::filesystem::path& file, bool asJson); // PNG, JPEG, WebP
 void printModelInfo(const std::filesystem::path& file, bool asJson);
 
 } // namespace irradia

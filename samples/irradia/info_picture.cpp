@@ -128,9 +128,12 @@ void printHdrInfo(const std::filesystem::path& file, bool asJson) {
 void printScreenPictureInfo(const std::filesystem::path& file, bool asJson) {
     const std::vector<uint8_t> bytes = readFile(file);
     const Rgba8Image image = decodeImage(bytes, file.string());
-    const bool isPng = bytes.front() == 0x89;
-    printSize(file, isPng ? "png" : "jpeg", isPng ? "PNG picture" : "JPEG picture", image.width, image.height,
-              asJson);
+    const auto print = [&](const char* format, const std::string& words) {
+        printSize(file, format, words, image.width, image.height, asJson);
+    };
+    if (bytes.front() == 0x89) return print("png", "PNG picture");
+    if (bytes.front() == 'R') return print("webp", "WebP picture");
+    print("jpeg", "JPEG picture");
 }
 
 } // namespace irradia

@@ -142,6 +142,22 @@ glm::vec4 AccessorView::element(uint64_t i) const {
     return value;
 }
 
+glm::dvec4 AccessorView::stored(uint64_t i) const {
+    glm::dvec4 value(0.0);
+    const uint8_t* from = address(i);
+    if (!from) return value;
+    const int type = accessor_.componentType;
+    const uint64_t size = componentSize(type);
+    for (int c = 0; c < components_; ++c) {
+        const uint8_t* at = from + static_cast<uint64_t>(c) * size;
+        if (type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT) // which a float does not resolve
+            value[c] = unsignedInteger(at, type);
+        else
+            value[c] = component(at, type, false);
+    }
+    return value;
+}
+
 glm::uvec4 AccessorView::integers(uint64_t i) const {
     glm::uvec4 value(0u);
     const uint8_t* from = address(i);

@@ -25,6 +25,9 @@ public:
     // The first four components as floats, normalised if the accessor says so; missing ones are 0.
     glm::vec4 element(uint64_t i) const;
 
+    // The same as stored, not normalised.
+    glm::dvec4 stored(uint64_t i) const;
+
     // The same of the first four components of unsigned integers, as they stand.
     glm::uvec4 integers(uint64_t i) const;
 

@@ -27,6 +27,10 @@ private:
         const tinygltf::Texture& texture = model_.textures[index];
         const Thing owner = thing("texture", "textures", index, texture.name);
         checkIndex(owner.at("source"), "image", texture.source, model_.images.size(), Need::Optional);
+        if (const Extension webp = findExtension(texture.extensions, "EXT_texture_webp"))
+            checkIndex(owner.at("extensions").at("EXT_texture_webp").at("source"), "image",
+                       static_cast<int>(plainNumber(*webp, "source", -1)), model_.images.size(),
+                       Need::Optional);
         checkIndex(owner.at("sampler"), "sampler", texture.sampler, model_.samplers.size(), Need::Optional);
     }
 

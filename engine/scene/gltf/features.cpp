@@ -21,6 +21,9 @@ constexpr std::string_view kReadExtensions[] = {"KHR_materials_emissive_strength
                                                 "KHR_lights_punctual",
                                                 "KHR_mesh_quantization",
                                                 "EXT_mesh_gpu_instancing",
+                                                "EXT_texture_webp",
+                                                "EXT_meshopt_compression",
+                                                "KHR_draco_mesh_compression",
                                                 "KHR_xmp",
                                                 "KHR_xmp_json_ld"};
 

@@ -1,6 +1,7 @@
 #include "engine/scene/gltf/glb.h"
 
 #include <cstring>
+#include <span>
 
 namespace irradia::gltf {
 namespace {
@@ -42,6 +43,26 @@ std::string_view jsonText(const SourceFile& source) {
     if (jsonLength % 4 != 0)
         source.refuse(Thing{}, "GLB_CHUNK_LENGTH_UNALIGNED", "{} bytes of JSON", jsonLength);
     return {text + kGlbHeader + kChunkHeader, jsonLength};
+}
+
+std::vector<uint8_t> withJson(const SourceFile& source, std::string json) {
+    if (!isBinary(source)) return {json.begin(), json.end()};
+    while (json.size() % 4 != 0) json.push_back(' ');
+    const std::string_view old = jsonText(source);
+    const uint64_t length = littleEndian32(source.bytes.data() + 8);
+    const auto rest = std::span(source.bytes).first(length).subspan(kGlbHeader + kChunkHeader + old.size());
+
+    std::vector<uint8_t> bytes(source.bytes.begin(), source.bytes.begin() + kGlbHeader + kChunkHeader);
+    bytes.insert(bytes.end(), json.begin(), json.end());
+    bytes.insert(bytes.end(), rest.begin(), rest.end());
+    if (bytes.size() > kMaxFileBytes)
+        source.refuse("the file is larger than the {} bytes allowed", kMaxFileBytes);
+    const auto write32 = [&](uint64_t at, uint64_t value) {
+        for (int byte = 0; byte < 4; ++byte) bytes[at + byte] = static_cast<uint8_t>(value >> (8 * byte));
+    };
+    write32(8, bytes.size());
+    write32(kGlbHeader, json.size());
+    return bytes;
 }
 
 } // namespace irradia::gltf

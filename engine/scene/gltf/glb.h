@@ -12,4 +12,7 @@ bool isBinary(const SourceFile& source);
 // The JSON text of a .gltf, or of a .glb whose chunks are checked against the file's size.
 std::string_view jsonText(const SourceFile& source);
 
+// The same file with another JSON text.
+std::vector<uint8_t> withJson(const SourceFile& source, std::string json);
+
 } // namespace irradia::gltf

@@ -1,10 +1,12 @@
 #include "engine/scene/gltf/parse.h"
 
 #include "engine/scene/gltf/data_uri.h"
+#include "engine/scene/gltf/decompress.h"
 #include "engine/scene/gltf/features.h"
 #include "engine/scene/gltf/foreign.h"
 #include "engine/scene/gltf/glb.h"
 #include "engine/scene/gltf/json_guard.h"
+#include "engine/scene/gltf/plain_json.h"
 #include <algorithm>
 #include <exception>
 #include <sstream>
@@ -121,7 +123,8 @@ JsonFindings readJson(const SourceFile& source) {
 }
 
 tinygltf::Model parseModel(const SourceFile& source, const JsonFindings& findings) {
-    const std::string_view json = jsonText(source);
+    const std::vector<uint8_t> changed = plainBytes(source, findings);
+    const std::vector<uint8_t>& bytes = changed.empty() ? source.bytes : changed;
     FileAccess access{source, findings, nullptr};
     tinygltf::TinyGLTF reader;
     reader.SetFsCallbacks(fileCallbacks(access));
@@ -131,10 +134,11 @@ tinygltf::Model parseModel(const SourceFile& source, const JsonFindings& finding
     std::string errors, warnings;
     bool parsed = false;
     try {
-        const auto size = static_cast<unsigned int>(source.bytes.size());
+        const auto size = static_cast<unsigned int>(bytes.size());
+        const char* text = reinterpret_cast<const char*>(bytes.data());
         parsed = isBinary(source)
-                     ? reader.LoadBinaryFromMemory(&model, &errors, &warnings, source.bytes.data(), size)
-                     : reader.LoadASCIIFromString(&model, &errors, &warnings, json.data(), size, "");
+                     ? reader.LoadBinaryFromMemory(&model, &errors, &warnings, bytes.data(), size)
+                     : reader.LoadASCIIFromString(&model, &errors, &warnings, text, size, "");
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& exception) { // std::out_of_range, nlohmann's type errors
@@ -150,6 +154,8 @@ tinygltf::Model parseModel(const SourceFile& source, const JsonFindings& finding
     if (model.asset.version.substr(0, 2) != "2.")
         source.refuse({{}, "/asset/version"}, "UNKNOWN_ASSET_MAJOR_VERSION", "glTF {}, only 2 can be read",
                       model.asset.version);
+    restorePrimitives(model);
+    decompress(source, model);
     return model;
 }
 

@@ -40,7 +40,8 @@ TextureInfo textureInfo(const tinygltf::Value& extension, const std::string& key
 }
 
 int imageOf(const tinygltf::Texture& texture) {
-    return texture.source;
+    const Extension webp = findExtension(texture.extensions, "EXT_texture_webp"); // beside it stands the same
+    return webp ? static_cast<int>(plainNumber(*webp, "source", texture.source)) : texture.source;
 }
 
 TextureRef TextureReader::read(const Values& material, const TextureInfo& info) const {

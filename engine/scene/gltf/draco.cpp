@@ -85,7 +85,7 @@ private:
             source_.refuse(at_, {}, "Draco's bitstream {}.{}, only 2.2 can be read", header.version_major,
                            header.version_minor);
         if (header.encoder_type != draco::TRIANGULAR_MESH) refuseDamage("it holds no mesh");
-        buffer.set_bitstream_version(DRACO_BITSTREAM_VERSION(header.version_major, header.version_minor));
+        buffer.set_bitstream_version(static_cast<uint16_t>(DRACO_BITSTREAM_VERSION(2, 2)));
         draco::GeometryMetadata metadata;
         if ((header.flags & METADATA_FLAG_MASK) != 0 &&
             !draco::MetadataDecoder().DecodeGeometryMetadata(&buffer, &metadata))

@@ -49,8 +49,9 @@ TriangleAttributes loadAttributes(uint primitive, vec2 b) {
     result.color = vec4(1.0);
     if ((kTextureMask & kVertexColors) != 0u) {
         uvec4 c01 = loadQuad(attributes, at + 4u);
-        uvec4 c2 = loadQuad(attributes, at + 5u);
-        result.color = b0 * colorOf(c01.xy) + b.x * colorOf(c01.zw) + b.y * colorOf(c2.xy);
+        vec4 first = colorOf(c01.xy); // exact where all three are equal: a mask's cutoff may be
+        vec4 third = colorOf(loadQuad(attributes, at + 5u).xy);
+        result.color = first + b.x * (colorOf(c01.zw) - first) + b.y * (third - first);
     }
     return result;
 }

@@ -59,7 +59,7 @@ Surface loadSurface(uint primitive, vec2 b, vec3 view, uint media) {
     if (kTextureMask != 0u) {
         uvec4 codes = loadQuad(materials, at + 4u);
         uvec4 codes2 = loadQuad(materials, at + 5u);
-        if ((kTextureMask & kVertexColors) != 0u) base *= a.color.rgb;
+        if ((kTextureMask & kVertexColors) != 0u) base = min(base * a.color.rgb, vec3(1.0)); // no colour makes light
         if ((kTextureMask & kBaseColorTexture) != 0u) base *= sampleTexture(codes.x, a).rgb;
         if ((kTextureMask & kMetallicRoughnessTexture) != 0u) {
             vec4 texel = sampleTexture(codes.y, a);

@@ -31,8 +31,9 @@ BsdfParameters bsdfParameters(const Scene& scene, const Material& m, const Inter
     const Vec3 specularColor =
         Vec3(m.specularColor) * Vec3(lookUp(scene, m.specularColorTexture, at, Encoding::Srgb));
     BsdfParameters p;
-    p.baseColor =
-        Vec3(m.baseColor) * Vec3(lookUp(scene, m.baseColorTexture, at, Encoding::Srgb)) * Vec3(at.color);
+    p.baseColor = glm::min(Vec3(m.baseColor) * Vec3(lookUp(scene, m.baseColorTexture, at, Encoding::Srgb)) *
+                               Vec3(at.color),
+                           Vec3(1.0));
     p.roughness = static_cast<double>(m.roughness) * metallicRoughness.y;
     p.metallic = static_cast<double>(m.metallic) * metallicRoughness.z;
     p.f0 = glm::min(normalReflectance(m.ior) * specularColor, Vec3(1.0));

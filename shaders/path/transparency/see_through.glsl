@@ -23,7 +23,7 @@ vec3 sheetTransmittance(uint material, TriangleAttributes a, float cosine) {
     float transmission = uintBitsToFloat(loadQuad(materials, at + 6u).w);
     uvec4 codes = loadQuad(materials, at + 4u);
     uvec4 codes2 = loadQuad(materials, at + 5u);
-    vec3 base = m0.rgb * a.color.rgb;
+    vec3 base = min(m0.rgb * a.color.rgb, vec3(1.0));
     if ((kTextureMask & kBaseColorTexture) != 0u) base *= sampleTexture(codes.x, a).rgb;
     if ((kTextureMask & kMetallicRoughnessTexture) != 0u) {
         vec4 texel = sampleTexture(codes.y, a);

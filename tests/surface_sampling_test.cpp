@@ -78,7 +78,8 @@ std::vector<Sample> draw(QuadAccess form, uint32_t first, uint32_t count, uint32
     const GpuScene scene = uploadScene(device, packed, buildBvh(soup()));
     const Kernel kernel(device, kernels::generate_surface_rays);
     const Buffer rays(device, "rays", uint64_t{count} * gpu::kRayQuads * 16),
-        hits(device, "hits", uint64_t{count} * 16), counters(device, "counters", gpu::kCounters * 4);
+        hits(device, "hits", uint64_t{count} * 16), passages(device, "passages", 16),
+        counters(device, "counters", gpu::kCounters * 4);
     FrameUniforms uniforms{};
     uniforms.frame.seed = 1;
     uniforms.frame.triangles = scene.triangles;
@@ -96,6 +97,7 @@ std::vector<Sample> draw(QuadAccess form, uint32_t first, uint32_t count, uint32
         .read(scene.textures)
         .read(scene.texels)
         .read(scene.areaTable)
+        .write(passages)
         .push(gpu::SurfaceRayParams{{gpu::kFirstSurfacePath + first, frame, 0, count, 0, 0}, kDistance})
         .dispatch(count);
     graph.execute();

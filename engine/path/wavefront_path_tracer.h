@@ -13,7 +13,7 @@ public:
     WavefrontPathTracer(Device& device, const GpuScene& scene, const PathTracerOptions& options,
                         Profiler* profiler = nullptr);
 
-    // What the constructor allocates, for Device::plan.
+    // What the constructor allocates, for Device::plan, in scenes that let light through; in others less.
     static std::vector<Device::PlannedBuffer> planned(bool isCpu, const PathTracerOptions& options);
 
     // Adds a frame to the film. `index` numbers it for the random numbers: frames are independent, and the

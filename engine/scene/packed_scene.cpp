@@ -137,6 +137,7 @@ uint32_t packOctahedral(const glm::vec3& n) {
 }
 
 bool mayLetThrough(const Scene& scene, const Triangle& triangle) {
+    if (triangle.material >= scene.materials.size()) return false; // of scenes that are only traced
     const Material& m = scene.materials[triangle.material];
     if (isSheet(m)) return true;
     if (m.alphaMode == AlphaMode::Opaque) return false;

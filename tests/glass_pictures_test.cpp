@@ -13,7 +13,7 @@ using namespace irradia;
 
 namespace {
 
-constexpr int kSize = 40;
+constexpr int kSize = 32;
 
 Device& device() {
     return test::deviceWith(QuadAccess::Texel);

@@ -1,5 +1,6 @@
 // Light that goes straight on through surfaces: alpha by blending and by mask, clear sheets, in path and
 // shadow rays, and what vertices and transformed textures add to it.
+#include "tests/reference/glass_scenes.h"
 #include "tests/reference/simple_scenes.h"
 #include "tests/support/gpu_render.h"
 #include "tests/support/validated_device.h"
@@ -146,6 +147,29 @@ TEST_CASE("a clear white sheet in a white furnace is not to be seen") {
     // Its reflection alone, of a sheet that transmits black, is what it does not let through.
     scene.materials[0].baseColor = glm::vec3(0.0f);
     CHECK_FALSE(agrees(render(scene, camera, 64, 8).g, 1.0));
+}
+
+TEST_CASE("the inside of a solid weakens light by the length of its way") {
+    // Of the index of air, so that nothing is bent or reflected: a white sky through a slab of thickness 1/2,
+    // and of it and a slab within it, whose own inside counts there.
+    Scene scene;
+    scene.environment.constant = glm::vec3(1.0f);
+    Material solid = clearSheet();
+    solid.isThin = false;
+    solid.ior = 1.0f;
+    solid.absorption = {1.0f, 0.2f, 0.0f};
+    reference::addCuboid(scene, reference::addMaterial(scene, solid), {-2, -2, -0.25f}, {2, 2, 0.25f});
+    glm::dvec3 seen = render(scene, ahead(), 32, 8);
+    CHECK(agrees(seen.r, std::exp(-0.5)));
+    CHECK(agrees(seen.g, std::exp(-0.1)));
+    CHECK(agrees(seen.b, 1.0));
+    CHECK_FALSE(agrees(seen.r, std::exp(-0.51)));
+    solid.absorption = glm::vec3(0.0f, 2.0f, 0.0f);
+    reference::addCuboid(scene, reference::addMaterial(scene, solid), {-1.5f, -1.5f, -0.1f},
+                         {1.5f, 1.5f, 0.1f});
+    seen = render(scene, ahead(), 32, 8);
+    CHECK(agrees(seen.r, std::exp(-0.3)));
+    CHECK(agrees(seen.g, std::exp(-0.06 - 0.4)));
 }
 
 TEST_CASE("a mask is all or nothing, from its cutoff on") {

@@ -30,13 +30,14 @@ float pairReflectance(float ior, float eta) {
     return air != 0.0 ? square(pair / air) : 1.0;
 }
 
-// To the Bsdf of the same base, metallic, f0 (of the pair of media) and w. Solids' eta keeps away from 1, where refraction
-// turns nothing and has no half vector: by an angle of at most 1e-3.
+// Solids' eta keeps away from 1, where refraction turns nothing and has no half vector: by an angle of at most 1e-3.
+float awayFromOne(float eta) { return eta < 1.0 ? min(eta, 1.0 / 1.001) : max(eta, 1.001); }
+
+// To the Bsdf of the same base, metallic, f0 (of the pair of media) and w.
 Glass makeGlass(vec3 base, float metallic, float tau, vec3 f0, float w, float eta, bool isSheet) {
     float dielectric = 1.0 - metallic;
-    float solidEta = eta < 1.0 ? min(eta, 1.0 / 1.001) : max(eta, 1.001);
     return Glass(dielectric * tau * base, dielectric * tau, dielectric * w * min(f0, vec3(1.0)), dielectric * w, dielectric,
-                 isSheet ? 1.0 : solidEta, isSheet);
+                 isSheet ? 1.0 : awayFromOne(eta), isSheet);
 }
 
 // 1 - E of the view direction, and what weighs the two sides in the multiple-scattering lobe: 1 - Eavg on the viewer's

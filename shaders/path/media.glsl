@@ -2,6 +2,7 @@
 // + 1 (0 = none, as for those beyond). Inside and outside are told by the faces' orientation. Bindings as scene.glsl.
 #ifndef IRRADIA_PATH_MEDIA_GLSL
 #define IRRADIA_PATH_MEDIA_GLSL
+#include "lib/glass.glsl"
 #include "path/scene.glsl"
 
 const uint kNoMedia = 0u;
@@ -63,7 +64,7 @@ Interface interfaceOf(uint media, uint material, bool isFront) {
     face.here = isFront || inside == 0u ? media : mediaReflected(media, inside);
     face.beyond = inside == 0u ? media : (isFront ? mediaWithin(media, inside) : outside);
     face.index = indexOf(inside);
-    float eta = face.index / indexOf(innermost(outside));
+    float eta = awayFromOne(face.index / indexOf(innermost(outside))); // alike on the way in and out
     face.eta = isFront ? eta : 1.0 / eta;
     return face;
 }

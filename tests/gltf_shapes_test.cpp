@@ -3,6 +3,7 @@
 #include "engine/scene/load_scene.h"
 #include "tests/gltf_builder.h"
 #include "tests/support/expect_error.h"
+#include "tests/support/loaded_scene.h"
 #include <algorithm>
 #include <catch2/catch_test_macros.hpp>
 #include <cmath>
@@ -14,20 +15,6 @@ namespace {
 
 constexpr const char* kInstancing = "EXT_mesh_gpu_instancing";
 const double kHalf = std::sqrt(0.5);
-
-Scene load(const GltfBuilder& builder) {
-    const TempFolder folder;
-    return loadScene(folder.write("scene.glb", builder.glb()));
-}
-
-glm::vec3 corner(const Scene& scene, size_t triangle, int c) {
-    return glm::vec3(scene.origin + glm::dvec3(scene.vertices[scene.triangles[triangle].vertex[c]].position));
-}
-
-glm::vec3 faceNormal(const Scene& scene, size_t t) {
-    return glm::normalize(
-        glm::cross(corner(scene, t, 1) - corner(scene, t, 0), corner(scene, t, 2) - corner(scene, t, 0)));
-}
 
 bool near(glm::vec3 a, glm::vec3 b) {
     return glm::length(a - b) < 1e-5f * (1.0f + glm::length(b));

@@ -3,6 +3,7 @@
 #include "tests/reference/glass_scenes.h"
 #include "tests/reference/measure.h"
 #include "tests/reference/texture.h"
+#include "tests/support/check_radiance.h"
 #include <catch2/catch_approx.hpp>
 #include <catch2/catch_test_macros.hpp>
 
@@ -13,24 +14,6 @@ using Catch::Approx;
 namespace {
 
 constexpr glm::vec3 kBlack(0.0f);
-
-// Within four deviations of its own noise and a relative rounding; planted: 2 % more would not be.
-void checkRadiance(const Measured& measured, const Vec3& expected, double rounding = 1e-6) {
-    for (int c = 0; c < 3; ++c) {
-        const double limit = 4.0 * measured.sigma[c] + rounding * expected[c];
-        CAPTURE(c, measured.mean[c], measured.sigma[c], expected[c]);
-        CHECK(std::abs(measured.mean[c] - expected[c]) <= limit);
-        CHECK(std::abs(1.02 * measured.mean[c] - expected[c]) > limit);
-    }
-}
-void checkRadiance(const Measured& measured, double expected, double rounding = 1e-6) {
-    checkRadiance(measured, Vec3(expected), rounding);
-}
-
-// A square of side 2 in the plane z, its front towards +z.
-void addWall(Scene& scene, const Material& material, float z) {
-    addQuad(scene, addMaterial(scene, material), {-1, -1, z}, {2, 0, 0}, {0, 2, 0});
-}
 
 // From a unit above the origin of a wall, at cosine mu to it.
 glm::vec3 eyeAt(double mu) {

@@ -3,6 +3,7 @@
 #include "engine/image/image.h"
 #include "engine/scene/load_scene.h"
 #include "tests/gltf_builder.h"
+#include "tests/support/loaded_scene.h"
 #include <catch2/catch_approx.hpp>
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/matchers/catch_matchers_string.hpp>
@@ -13,20 +14,6 @@ using namespace irradia::test;
 using Catch::Matchers::ContainsSubstring;
 
 namespace {
-
-Scene load(const GltfBuilder& builder) {
-    const TempFolder folder;
-    return loadScene(folder.write("scene.glb", builder.glb()));
-}
-
-glm::vec3 corner(const Scene& scene, size_t triangle, int c) {
-    return glm::vec3(scene.origin + glm::dvec3(scene.vertices[scene.triangles[triangle].vertex[c]].position));
-}
-
-glm::vec3 faceNormal(const Scene& scene, size_t t) {
-    return glm::normalize(
-        glm::cross(corner(scene, t, 1) - corner(scene, t, 0), corner(scene, t, 2) - corner(scene, t, 0)));
-}
 
 // Float positions and unit vectors of small scenes: a few rounding errors.
 bool near(glm::vec3 a, glm::vec3 b) {

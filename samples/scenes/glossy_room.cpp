@@ -4,6 +4,7 @@
 #include "room.h"
 #include "scenes.h"
 #include "textures.h"
+#include "tile_material.h"
 
 #include <array>
 #include <cmath>
@@ -75,14 +76,7 @@ void addShell(GlbWriter& glb) {
 }
 
 void addTiledFloor(GlbWriter& glb) {
-    const TileTextures pictures = tiles(512, {0.72f, 0.66f, 0.55f}, {0.2f, 0.22f, 0.26f});
-    const int floor = glb.addMaterial(
-        {.name = "tiles",
-         .baseColor = glm::vec3(1.0f),
-         .metallic = 1.0f, // times the texture's 0
-         .baseColorTexture = glb.addTexture("tile colour", pictures.baseColor),
-         .metallicRoughnessTexture = glb.addTexture("tile roughness", pictures.metallicRoughness),
-         .normalTexture = glb.addTexture("tile normals", pictures.normal)});
+    const int floor = addTiles(glb, {0.72f, 0.66f, 0.55f}, {0.2f, 0.22f, 0.26f});
     const glm::vec3 size = kRoom.upper - kRoom.lower;
     // Just above the slab, reaching into the walls.
     Mesh mesh = quad({kRoom.lower.x - 0.05f, 0.002f, kRoom.upper.z + 0.05f}, {size.x + 0.1f, 0.0f, 0.0f},

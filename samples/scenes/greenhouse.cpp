@@ -9,6 +9,7 @@
 #include "scenes.h"
 #include "sheets.h"
 #include "textures.h"
+#include "tile_material.h"
 
 #include <array>
 #include <cmath>
@@ -49,14 +50,7 @@ void addHouse(GlbWriter& glb) {
 }
 
 void addTiledFloor(GlbWriter& glb) {
-    const TileTextures pictures = tiles(512, {0.74f, 0.67f, 0.55f}, {0.52f, 0.29f, 0.19f});
-    const int floor = glb.addMaterial(
-        {.name = "tiles",
-         .baseColor = glm::vec3(1.0f),
-         .metallic = 1.0f, // times the texture's 0
-         .baseColorTexture = glb.addTexture("tile colour", pictures.baseColor),
-         .metallicRoughnessTexture = glb.addTexture("tile roughness", pictures.metallicRoughness),
-         .normalTexture = glb.addTexture("tile normals", pictures.normal)});
+    const int floor = addTiles(glb, {0.74f, 0.67f, 0.55f}, {0.52f, 0.29f, 0.19f});
     const glm::vec3 size = kHouse.upper - kHouse.lower;
     Mesh mesh = quad({kHouse.lower.x, 0.002f, kHouse.upper.z + 0.05f}, {size.x + 0.05f, 0.0f, 0.0f},
                      {0.0f, 0.0f, -size.z - 0.1f}, {3.0f, 5.5f});

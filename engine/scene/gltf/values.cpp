@@ -10,9 +10,9 @@ Extension findExtension(const tinygltf::ExtensionMap& extensions, const std::str
     return found != extensions.end() && found->second.IsObject() ? &found->second : nullptr;
 }
 
-const tinygltf::Value& member(const tinygltf::Value& object, const std::string& key) {
+const tinygltf::Value& member(const tinygltf::Value& object, std::string_view key) {
     static const tinygltf::Value kNone;
-    return object.IsObject() ? object.Get(key) : kNone;
+    return object.IsObject() ? object.Get(std::string(key)) : kNone;
 }
 
 double plainNumber(const tinygltf::Value& object, const std::string& key, double otherwise) {

@@ -18,7 +18,7 @@ using Extension = const tinygltf::Value*; // an object, or null
 Extension findExtension(const tinygltf::ExtensionMap& extensions, const std::string& name);
 
 // The member of an object; of anything else, and where there is none, a value of no type.
-const tinygltf::Value& member(const tinygltf::Value& object, const std::string& key);
+const tinygltf::Value& member(const tinygltf::Value& object, std::string_view key);
 
 // A number as it stands there, or what stands for it.
 double plainNumber(const tinygltf::Value& object, const std::string& key, double otherwise);

@@ -99,3 +99,40 @@ TEST_CASE("white glass in a white furnace is white, at any roughness") {
             CHECK(sigma < 0.004);
         }
 }
+
+TEST_CASE("glass that is built wrong makes no light") {
+    // In a closed room in which all is 1: balls within balls, more than a path can tell apart, and panes that
+    // are called solid. Light may be lost at the last bounce, by paths that do not find out.
+    const auto room = [] {
+        Scene scene;
+        reference::addSphereFromInside(
+            scene, reference::addMaterial(scene, reference::lambert(glm::vec3(0.5f), glm::vec3(0.5f))),
+            glm::vec3(0.0f), 2.0f, 12);
+        return scene;
+    };
+    Scene nested = room(), open = room();
+    for (int i = 0; i < 5; ++i) {
+        const uint32_t glass = reference::addMaterial(
+            nested, reference::solidGlass(i % 2 == 0 ? 1.5f : 2.0f, i % 2 == 0 ? 0.0f : 0.3f));
+        reference::addSphere(nested, glass, glm::vec3(0.0f), 0.9f - 0.15f * float(i), 8, false);
+    }
+    const uint32_t pane = reference::addMaterial(open, reference::solidGlass(1.5f, 0.1f));
+    for (int i = 0; i < 4; ++i) // their backs to the camera
+        reference::addQuad(open, pane, {-0.8f, -0.8f, 0.2f * float(i)}, {0, 1.6f, 0}, {1.6f, 0, 0});
+    const Camera camera = reference::lookAt({0, 0, 1.8f}, glm::vec3(0.0f), 0.9f);
+    PathTracerOptions options = picture(16, 64);
+    options.samplesPerFrame = 16;
+    for (const Scene& scene : {nested, open}) {
+        const FilmImage film = test::GpuRenderer(device(), scene).render(camera, options, 8);
+        double mean = 0.0;
+        float largest = 0.0f;
+        for (const glm::vec3& v : film.mean) {
+            mean += v.y / double(film.mean.size());
+            largest = std::max(largest, v.y);
+        }
+        INFO("mean " << mean << ", largest " << largest);
+        CHECK(mean < 1.005);
+        CHECK(largest < 1.2f); // 128 samples, each at most some times 1
+        if (scene.materials.size() == 2) CHECK(mean > 0.99); // the open one
+    }
+}

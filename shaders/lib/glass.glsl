@@ -90,11 +90,13 @@ float reflectionProbability(Glass g, GlassView view, GlassFresnel fresnel) {
 }
 
 // What comes back of a loss that the table has for w = 1 and the indices' F0. E is linear in F, of which this is the part
-// that is so; the rest returns nothing, so that no surface scatters more than it receives. Sheets lose the same by any F.
+// that is so; the rest returns nothing, so that no surface scatters more than it receives, but for 1e-4, which F of indices
+// next to each other is below. Sheets lose the same by any F.
 float returnedShare(Bsdf b, Glass g) {
     float indices = square((g.eta - 1.0) / (g.eta + 1.0));
     float f0 = b.layerF90 > 0.0 ? b.layerF0 / b.layerF90 : 0.0;
-    float share = b.layerF90 * (f0 <= indices ? f0 / indices : (1.0 - f0) / (1.0 - indices));
+    float share = f0 <= indices ? (f0 + 1e-4) / indices : (1.0 - f0 + 1e-4) / (1.0 - indices);
+    share = b.layerF90 * min(share, 1.0);
     return g.isSheet ? 1.0 : share;
 }
 

@@ -108,15 +108,14 @@ void main() {
     BsdfValue value = evaluateScattering(s, scattering, l, false);
     bool isFollowed = isScattered(s, l, direction) && value.pdf > 0.0;
     vec3 nextBeta = isFollowed ? beta * value.fCos / value.pdf : vec3(0.0);
-    // Russian roulette after bounce 3, on the throughput.
-    uint nextMedia = kHasGlass ? leavingMedia(s, l) : kNoMedia;
-    float scale = rouletteScale(nextMedia);
-    float survival = params.depth >= 3u ? min(maxComponent(nextBeta) * scale, 1.0) : 1.0;
+    // Russian roulette after bounce 3, on the throughput itself.
+    float survival = params.depth >= 3u ? min(maxComponent(nextBeta), 1.0) : 1.0;
     vec3 throughput = isFollowed ? value.fCos / value.pdf : vec3(0.0);
-    survival = survivalOf(visit, survival, throughput * (scale / rouletteScale(s.mediaHere)));
+    survival = survivalOf(visit, survival, throughput);
     bool scatters = maxComponent(nextBeta) > 0.0 || goesOnUnseen(visit, throughput);
     leave(visit, directLight, throughput / max(survival, 1e-30));
     bool survives = scatters && u.w < survival;
+    uint nextMedia = kHasGlass ? leavingMedia(s, l) : kNoMedia;
     if (kHasTransparency && alive) storeQuad(passages, path, uvec4(floatBitsToUint(vec3(1.0)), nextMedia));
     pushRay(alive && survives, leavingPoint(s, l), direction, path, nextBeta / max(survival, 1e-30), value.pdf, normalCode);
 }

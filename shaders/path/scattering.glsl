@@ -36,7 +36,10 @@ BsdfValue evaluateScattering(Surface s, Scattering x, vec3 l, bool isPunctual) {
         float mend = min(x.mend, glassMend(s.bsdf, s.glass, abs(l.z), abc));
         float loss = glassLossTowards(s.glass, s.bsdf.alpha, l, abc);
         float facets = isPunctual && s.bsdf.alpha <= kMinAlpha ? 0.0 : 1.0; // as bsdfUnderPunctual
-        return evaluateLobes(s.bsdf, s.glass, x.glass, x.view, l, mend, loss, facets);
+        BsdfValue value = evaluateLobes(s.bsdf, s.glass, x.glass, x.view, l, mend, loss, facets);
+        // Radiance is carried divided by the squared index of where it is: then no face makes light of a wrong one.
+        if (l.z < 0.0) value.fCos *= square(s.glass.eta);
+        return value;
     }
     float mend = min(x.mend, diffuseMend(s.bsdf, reflectanceAt(l.z, s.roughness)));
     Bsdf lit = s.bsdf;
@@ -62,10 +65,6 @@ vec3 leavingPoint(Surface s, vec3 l) {
 }
 
 uint leavingMedia(Surface s, vec3 l) { return l.z < 0.0 ? s.mediaBeyond : s.mediaHere; }
-
-// What throughput is times, for roulette: within glass of index n radiance is n^2 times what it is without, and throughput
-// so much less.
-float rouletteScale(uint media) { return kHasGlass ? square(indexOf(innermost(media))) : 1.0; }
 
 // How the vertex' rays know it again as a receiver of light.
 uint receiverCode(Surface s) { return kHasGlass && s.isGlass ? kEitherSide : encodeOctahedral(s.shadingNormal); }

@@ -71,7 +71,9 @@ Vec3 Glass::transmitted(const Vec3& v, const Vec3& l) const {
 double Glass::returnedShare() const {
     if (!isSolid()) return 1.0;
     const double indices = normalReflectance(g_.eta), f0 = std::min(maxComponent(p_.f0), 1.0);
-    return p_.specular * (f0 <= indices ? f0 / indices : (1.0 - f0) / (1.0 - indices));
+    constexpr double kLeast = 1e-4; // F0 of indices next to each other is below it
+    const double share = f0 <= indices ? (f0 + kLeast) / indices : (1.0 - f0 + kLeast) / (1.0 - indices);
+    return p_.specular * std::min(share, 1.0);
 }
 
 Vec3 Glass::multiple(const Vec3& v, const Vec3& l) const {

@@ -137,7 +137,7 @@ BsdfSample PathTracer::scatter(const SurfacePoint& point, const Estimator& estim
 
 Vec3 PathTracer::indirect(const SurfacePoint& point, const Walk& walk, const Estimator& estimator) const {
     const BsdfSample sample = scatter(point, estimator);
-    const double importance = walk.importance * point.etendue(sample.direction) * maxComponent(sample.weight);
+    const double importance = walk.importance * maxComponent(sample.weight);
     if (importance == 0.0 || !point.isValid(sample.direction)) return Vec3(0.0);
 
     const bool isSafe = walk.edge < estimator.settings.rouletteBounce;

@@ -58,7 +58,7 @@ bool SurfacePoint::isValid(const Vec3& direction) const {
 Vec3 SurfacePoint::scattered(const Vec3& direction) const {
     if (!isValid(direction)) return Vec3(0.0);
     const Vec3 l = shading.toLocal(direction);
-    return std::abs(l.z) * (glass ? glass->evaluate(view, l) : bsdf.evaluate(view, l));
+    return etendue(direction) * std::abs(l.z) * (glass ? glass->evaluate(view, l) : bsdf.evaluate(view, l));
 }
 
 Vec3 SurfacePoint::scatteredPunctual(const Vec3& direction) const {
@@ -76,6 +76,7 @@ double SurfacePoint::pdf(const Vec3& direction) const {
 
 BsdfSample SurfacePoint::sample(double uLobe, const Vec2& u) const {
     BsdfSample sample = glass ? glass->sample(view, uLobe, u) : bsdf.sample(view, uLobe, u);
+    if (glass) sample.weight *= glass->etendue(sample.direction);
     sample.direction = shading.toWorld(sample.direction);
     return sample;
 }

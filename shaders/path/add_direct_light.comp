@@ -4,7 +4,8 @@
 #pragma variant add_direct_light_cached path/taps/radiance_cache
 #pragma variant add_filtered_light path/transparency/some
 #pragma variant add_filtered_light_cached path/taps/radiance_cache path/transparency/some
-// Adds what arrives of the light samples: all of those whose shadow rays met nothing, or what they were let through. Each path has at most one a bounce: no two items share a path.
+// Adds what arrives of the light samples: all of those whose shadow rays met nothing, or the share that was let through. Each
+// path has at most one a bounce: no two items share a path.
 #include "lib/kernel.glsl"
 #include "lib/math.glsl"
 #include "shared/queue.h"

@@ -103,14 +103,16 @@ TEST_CASE("instances that are broken, or too many") {
           [](GltfBuilder&, Json& attributes) { attributes["TRANSLATION"] = -1; });
     check("attributes/SCALE: VALUE_NOT_IN_RANGE",
           [](GltfBuilder&, Json& attributes) { attributes["SCALE"] = 1ull << 32; });
-    check("instances, another attribute has", [](GltfBuilder& builder, Json& attributes) {
-        attributes["SCALE"] = builder.vec3({{1, 1, 1}});
-    });
-    check("node 0 ROTATION: an accessor of another format is needed",
+    check("INSTANCING_UNEQUAL_ACCESSOR_COUNT: 1 instances, another attribute has",
           [](GltfBuilder& builder, Json& attributes) {
-              attributes["ROTATION"] = builder.vec3({{1, 1, 1}, {1, 1, 1}});
+              attributes["SCALE"] = builder.vec3({{1, 1, 1}});
           });
-    check("node 0 SCALE: an accessor of another format is needed",
+    check(
+        "node 0 ROTATION: INSTANCING_ACCESSOR_INVALID_FORMAT: an accessor of another format is needed: VEC4",
+        [](GltfBuilder& builder, Json& attributes) {
+            attributes["ROTATION"] = builder.vec3({{1, 1, 1}, {1, 1, 1}});
+        });
+    check("node 0 SCALE: INSTANCING_ACCESSOR_INVALID_FORMAT: an accessor of another format is needed: VEC3",
           [](GltfBuilder& builder, Json& attributes) {
               attributes["SCALE"] = builder.accessor(builder.view(std::vector<int16_t>(8)), 5122, 2, "VEC3");
           });

@@ -5,6 +5,7 @@
 #include "engine/scene/gltf/features.h"
 #include "engine/scene/gltf/foreign.h"
 #include "engine/scene/gltf/glb.h"
+#include "engine/scene/gltf/inspect.h"
 #include "engine/scene/gltf/json_guard.h"
 #include "engine/scene/gltf/plain_json.h"
 #include <algorithm>
@@ -119,6 +120,7 @@ JsonFindings readJson(const SourceFile& source) {
     JsonFindings findings = guardJson(source, jsonText(source));
     refuseUnreadableExtensions(source, findings);
     noteExtensions(source, findings);
+    inspectTypes(source);
     return findings;
 }
 

@@ -93,7 +93,8 @@ void VertexReader::noteMends() const {
                      "texture coordinates that are not finite or beyond {} are taken as 0", kMaxUv);
     if (badColor_)
         source_.warn(owner_, "ACCESSOR_INVALID_FLOAT",
-                     "colours that are negative or not finite are clamped to 0 to {}", kMaxColor);
+                     "colours that are negative, above {0} or not finite are clamped to 0 to {0}, NaN to 0",
+                     kMaxColor);
 }
 
 } // namespace irradia::gltf

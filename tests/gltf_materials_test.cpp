@@ -258,6 +258,10 @@ TEST_CASE("vertex colours of three or four components, floats or normalised inte
         notes ==
         "mesh 0 primitive 0: ACCESSOR_INVALID_FLOAT: colours that are negative, above 1000000 or not finite "
         "are clamped to 0 to 1000000, NaN to 0\n");
+    expectError(ExitCode::BadData,
+                "INVALID_FORMAT: accessor 3 holds VEC2 of floats, allowed are VEC3 or VEC4 of floats, "
+                "normalised unsigned bytes, normalised unsigned shorts",
+                [&] { colorOf(5126, "VEC2", std::vector<float>(9)); });
     for (const char* shape : {"VEC2", "SCALAR"})
         expectError(ExitCode::BadData,
                     "mesh 0 primitive 0 COLOR_0: MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_INVALID_FORMAT",

@@ -468,6 +468,41 @@ TEST_CASE("validate tells where the parser refuses") {
         findings, [](const Finding& f) { return f.code == "IO_ERROR" && f.pointer == "/buffers"; }));
 }
 
+TEST_CASE("validate tells where lights, cameras and materials are refused by the parser") {
+    const TempFolder folder;
+    const auto check = [&](const std::string& expected, const Spoil& spoil) {
+        const auto file = spoiled(folder, spoil);
+        std::vector<std::string> found;
+        for (const Finding& finding : validateScene(file))
+            if (finding.severity == Severity::Error) found.push_back(finding.code + " " + finding.pointer);
+        CHECK(found == std::vector<std::string>{expected});
+        CHECK_FALSE(loadingError(file).empty());
+    };
+    const auto light = [](Json& json) -> Json& {
+        return json["extensions"]["KHR_lights_punctual"]["lights"][1];
+    };
+    const std::string atLight = " /extensions/KHR_lights_punctual/lights/1";
+    check("UNDEFINED_PROPERTY" + atLight + "/type", [&](Json& json) { light(json).erase("type"); });
+    check("TYPE_MISMATCH" + atLight + "/type", [&](Json& json) { light(json)["type"] = 3; });
+    check("UNDEFINED_PROPERTY" + atLight + "/spot", [&](Json& json) { light(json).erase("spot"); });
+    check("TYPE_MISMATCH" + atLight + "/spot", [&](Json& json) { light(json)["spot"] = "wide"; });
+    const std::string atMaterial = " /materials/0/";
+    check("TYPE_MISMATCH" + atMaterial + "normalTexture",
+          [](Json& json) { json["materials"][0]["normalTexture"] = "x"; });
+    check("UNDEFINED_PROPERTY" + atMaterial + "pbrMetallicRoughness/baseColorTexture/index", [](Json& json) {
+        json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = Json::object();
+    });
+    check("ARRAY_LENGTH_NOT_IN_LIST" + atMaterial + "emissiveFactor", [](Json& json) {
+        json["materials"][0]["emissiveFactor"] = {1, 1};
+    });
+    const std::string atCamera = " /cameras/0/perspective";
+    check("UNDEFINED_PROPERTY" + atCamera, [](Json& json) { json["cameras"][0].erase("perspective"); });
+    check("UNDEFINED_PROPERTY" + atCamera + "/znear",
+          [](Json& json) { json["cameras"][0]["perspective"].erase("znear"); });
+    check("TYPE_MISMATCH" + atCamera + "/yfov",
+          [](Json& json) { json["cameras"][0]["perspective"]["yfov"] = "wide"; });
+}
+
 TEST_CASE("validate reads indices and pictures too") {
     const TempFolder folder;
     GltfBuilder builder = lamps();

@@ -148,10 +148,13 @@ TEST_CASE("values of another type are ignored, and loading says so") {
 }
 
 TEST_CASE("an unlit material is a lamp of its base colour") {
-    const Material material =
-        read(R"({"alphaMode": "MASK", "emissiveFactor": [9, 9, 9], "normalTexture": {"index": 0},
+    const GltfBuilder builder =
+        textured(R"({"alphaMode": "MASK", "emissiveFactor": [9, 9, 9], "normalTexture": {"index": 0},
         "pbrMetallicRoughness": {"baseColorFactor": [0.5, 1, 0, 0.75], "baseColorTexture": {"index": 0, "texCoord": 1}},
         "extensions": {"KHR_materials_unlit": {}, "KHR_materials_transmission": {"transmissionFactor": 1}}})");
+    const Material material = load(builder).materials[0];
+    CHECK(warnings(builder) == "material 0: KHR_materials_unlit makes it unlit, and its "
+                               "KHR_materials_transmission is ignored\n");
     CHECK(material.isUnlit);
     CHECK(material.doubleSided);
     CHECK(material.emission == glm::vec3(0.5f, 1, 0));
@@ -313,6 +316,11 @@ TEST_CASE("a quantised position is scaled by its node") {
     builder.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = accessor;
     builder.json["nodes"][0]["scale"] = {0.5, 0.5, 0.5};
     CHECK(load(builder).vertices[1].position == glm::vec3(16383.5f, 0, 0));
+    CHECK(warnings(builder) ==
+          "mesh 0 primitive 0 POSITION: UNDECLARED_EXTENSION: VEC3 of shorts need KHR_mesh_quantization, "
+          "which extensionsUsed does not declare\n");
+    builder.json["extensionsUsed"].push_back("KHR_mesh_quantization");
+    CHECK(warnings(builder).empty());
     builder.json["accessors"][accessor]["normalized"] = true;
     CHECK(load(builder).vertices[1].position == glm::vec3(0.5f, 0, 0));
 }

@@ -256,6 +256,13 @@ TEST_CASE("a skin holds its mesh where its joints are") {
     attributesOf(builder)["WEIGHTS_0"] =
         builder.vec4({{0, 0, 0, 0}, {3, -1, 0, 0}, {0.25f, 0.25f, std::nanf(""), 0}});
     const Scene scaled = load(builder);
+    CHECK(
+        joined(scaled) ==
+        "skins stand at rest, at the transforms of their joints\n"
+        "mesh 0 primitive 0: ACCESSOR_INVALID_FLOAT: weights of joints that are negative or not finite are "
+        "taken as 0\n"
+        "mesh 0 primitive 0: ACCESSOR_WEIGHTS_NON_NORMALIZED: vertices without a weight above 0 hang on the "
+        "skin's first joint\n");
     for (int c = 0; c < 3; ++c) CHECK(near(corner(scaled, 0, c), corner(scene, 0, c)));
 
     // The inverse matrices put the mesh into the joint's space.

@@ -14,23 +14,24 @@ struct Format {
     std::string_view name; // or how it begins, up to the number of the set
     std::vector<int> types;
     std::string_view components;
+    std::string_view quantised; // those of KHR_mesh_quantization
 };
 
 // glTF 2.0, 3.7.2.1, and KHR_mesh_quantization.
-const Format kAttributes[] = {{"POSITION", {TINYGLTF_TYPE_VEC3}, "fbBuUsSwW"},
-                              {"NORMAL", {TINYGLTF_TYPE_VEC3}, "fBS"},
-                              {"TANGENT", {TINYGLTF_TYPE_VEC4}, "fBS"},
-                              {"TEXCOORD_", {TINYGLTF_TYPE_VEC2}, "fbBuUsSwW"},
-                              {"COLOR_", {TINYGLTF_TYPE_VEC3, TINYGLTF_TYPE_VEC4}, "fUW"},
-                              {"JOINTS_", {TINYGLTF_TYPE_VEC4}, "uw"},
-                              {"WEIGHTS_", {TINYGLTF_TYPE_VEC4}, "fUW"}};
+const Format kAttributes[] = {{"POSITION", {TINYGLTF_TYPE_VEC3}, "fbBuUsSwW", "bBuUsSwW"},
+                              {"NORMAL", {TINYGLTF_TYPE_VEC3}, "fBS", "BS"},
+                              {"TANGENT", {TINYGLTF_TYPE_VEC4}, "fBS", "BS"},
+                              {"TEXCOORD_", {TINYGLTF_TYPE_VEC2}, "fbBuUsSwW", "bBusSw"},
+                              {"COLOR_", {TINYGLTF_TYPE_VEC3, TINYGLTF_TYPE_VEC4}, "fUW", ""},
+                              {"JOINTS_", {TINYGLTF_TYPE_VEC4}, "uw", ""},
+                              {"WEIGHTS_", {TINYGLTF_TYPE_VEC4}, "fUW", ""}};
 
 // glTF 2.0, 3.7.2.2: what they add to these.
-const Format kTargets[] = {{"POSITION", {TINYGLTF_TYPE_VEC3}, "fbBuUsSwW"},
-                           {"NORMAL", {TINYGLTF_TYPE_VEC3}, "fBS"},
-                           {"TANGENT", {TINYGLTF_TYPE_VEC3}, "fBS"},
-                           {"TEXCOORD_", {TINYGLTF_TYPE_VEC2}, "fbBuUsSwW"},
-                           {"COLOR_", {TINYGLTF_TYPE_VEC3, TINYGLTF_TYPE_VEC4}, "fBUSW"}};
+const Format kTargets[] = {{"POSITION", {TINYGLTF_TYPE_VEC3}, "fbBuUsSwW", "bBuUsSwW"},
+                           {"NORMAL", {TINYGLTF_TYPE_VEC3}, "fBS", "BS"},
+                           {"TANGENT", {TINYGLTF_TYPE_VEC3}, "fBS", "BS"},
+                           {"TEXCOORD_", {TINYGLTF_TYPE_VEC2}, "fbBuUsSwW", "busw"},
+                           {"COLOR_", {TINYGLTF_TYPE_VEC3, TINYGLTF_TYPE_VEC4}, "fBUSW", ""}};
 
 // Null for attributes of the file's own, which nobody reads.
 const Format* formatOf(std::string_view name, std::span<const Format> formats) {
@@ -189,6 +190,7 @@ private:
             source_.refuse(what, "MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_INVALID_FORMAT",
                            "accessor {} holds {}, allowed are {}", index, wordsOf(accessor),
                            wordsOf(format->types, format->components));
+        warnOfQuantisation(what, accessor, format);
         const auto position = primitive.attributes.find("POSITION");
         if (position == primitive.attributes.end()) return;
         checkIndex(owner.called("POSITION").at("POSITION"), "accessor", position->second,
@@ -197,6 +199,16 @@ private:
         if (accessor.count != vertices)
             source_.refuse(what, "MESH_PRIMITIVE_UNEQUAL_ACCESSOR_COUNT", "{} for {} positions",
                            accessor.count, vertices);
+    }
+
+    // Readers without the extension refuse such accessors.
+    void warnOfQuantisation(const Thing& what, const tinygltf::Accessor& accessor,
+                            const Format* format) const {
+        constexpr const char* kName = "KHR_mesh_quantization";
+        if (!format || std::ranges::find(model_.extensionsUsed, kName) != model_.extensionsUsed.end()) return;
+        if (format->quantised.find(componentLetter(accessor)) != std::string_view::npos)
+            source_.warn(what, "UNDECLARED_EXTENSION", "{} need {}, which extensionsUsed does not declare",
+                         wordsOf(accessor), kName);
     }
 };
 

@@ -79,7 +79,6 @@ const Expected kExpected[] = {
     {"meshes/*/primitives/*", {"extensions"}, Kind::Object},
     {"meshes/*/primitives/*/extensions", {"*"}, Kind::Object},
     {"accessors/*", {"normalized"}, Kind::Boolean},
-    {"accessors/*", {"min", "max"}, Kind::Numbers},
     {"bufferViews/*", {"extensions"}, Kind::Object},
     {"bufferViews/*/extensions", {"*"}, Kind::Object},
     {"bufferViews/*/extensions/EXT_meshopt_compression", {"mode", "filter"}, Kind::Text},

@@ -20,7 +20,10 @@ public:
         Material material;
         material.name = from_.name;
         readBaseColour(material);
-        if (find("KHR_materials_unlit")) return unlit(std::move(material));
+        if (find("KHR_materials_unlit")) {
+            noteUnlit();
+            return unlit(std::move(material));
+        }
         material.doubleSided = from_.doubleSided;
         readMetallicRoughness(material);
         readSpecularGlossiness(material);
@@ -42,6 +45,14 @@ private:
         if (from_.alphaMode == "MASK") material.alphaMode = AlphaMode::Mask;
         if (from_.alphaMode == "BLEND") material.alphaMode = AlphaMode::Blend;
         material.alphaCutoff = values_.number("alphaCutoff", from_.alphaCutoff, 0, kMaxScale);
+    }
+
+    // KHR_materials_transmission forbids to stand beside KHR_materials_unlit.
+    void noteUnlit() const {
+        if (find("KHR_materials_transmission"))
+            source_.note(Severity::Info, values_.owner().pointer, kNotRendered,
+                         values_.owner().name + ": KHR_materials_unlit makes it unlit, and its "
+                                                "KHR_materials_transmission is ignored");
     }
 
     // Shows its base colour as it is: a lamp that reflects nothing.

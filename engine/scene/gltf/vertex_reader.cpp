@@ -88,6 +88,7 @@ glm::vec4 VertexReader::readColor(uint64_t i) {
 }
 
 void VertexReader::noteMends() const {
+    skinning_.noteMends();
     if (badUv_)
         source_.warn(owner_, "ACCESSOR_INVALID_FLOAT",
                      "texture coordinates that are not finite or beyond {} are taken as 0", kMaxUv);

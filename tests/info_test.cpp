@@ -408,6 +408,7 @@ TEST_CASE("validate warns of values of another type, each at its place") {
         json["materials"][0]["emissiveTexture"]["extensions"]["KHR_texture_transform"]["offset"] = "x";
         json["materials"][0]["extensions"]["KHR_materials_transmission"]["transmissionTexture"] = {1};
         json["nodes"][0]["translation"] = "x";
+        json["nodes"][0]["mesh"] = Json::object();
         json["nodes"][1]["extensions"]["KHR_lights_punctual"] = "x";
         json["accessors"][0]["normalized"] = nullptr;
         json["extensions"]["KHR_lights_punctual"]["lights"][1]["range"] = "far";
@@ -429,6 +430,7 @@ TEST_CASE("validate warns of values of another type, each at its place") {
                        material + "emissiveTexture/extensions/KHR_texture_transform/offset \"x\" is no array "
                                   "of numbers and is ignored",
                        "/nodes/0/translation \"x\" is no array of numbers and is ignored",
+                       "/nodes/0/mesh an object is no number and is ignored",
                        "/nodes/1/extensions/KHR_lights_punctual \"x\" is no object and is ignored",
                        "/accessors/0/normalized null is no boolean and is ignored",
                        light + "range \"far\" is no number and is ignored",
@@ -495,6 +497,12 @@ TEST_CASE("validate tells where lights, cameras and materials are refused by the
     check("ARRAY_LENGTH_NOT_IN_LIST" + atMaterial + "emissiveFactor", [](Json& json) {
         json["materials"][0]["emissiveFactor"] = {1, 1};
     });
+    check("TYPE_MISMATCH /accessors/0/count", [](Json& json) { json["accessors"][0]["count"] = {1, 2}; });
+    const std::string atAttributes = " /meshes/0/primitives/0/attributes";
+    check("TYPE_MISMATCH" + atAttributes,
+          [](Json& json) { json["meshes"][0]["primitives"][0]["attributes"] = 3; });
+    check("TYPE_MISMATCH" + atAttributes + "/POSITION",
+          [](Json& json) { json["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = Json::object(); });
     const std::string atCamera = " /cameras/0/perspective";
     check("UNDEFINED_PROPERTY" + atCamera, [](Json& json) { json["cameras"][0].erase("perspective"); });
     check("UNDEFINED_PROPERTY" + atCamera + "/znear",

@@ -32,6 +32,8 @@ const Required kRequired[] = {{"buffers", "buffer", {"byteLength"}},
                               {"samplers", "sampler", {}},
                               {"scenes", "scene", {}}};
 
+constexpr std::string_view kIntegers[] = {"buffer", "byteLength", "componentType", "count"};
+
 // Texture infos, which must have an index.
 const Json::json_pointer kTextureInfos[] = {"/normalTexture"_json_pointer, "/occlusionTexture"_json_pointer,
                                             "/emissiveTexture"_json_pointer,
@@ -99,6 +101,12 @@ private:
                            property);
     }
 
+    // What the guard has left of those that are none: arrays and objects.
+    void requireInteger(const Json& json, const Thing& owner, const std::string& property) const {
+        if (json.contains(property) && json[property].is_structured())
+            source_.report(owner.at(property), "TYPE_MISMATCH", "a non-negative integer is needed");
+    }
+
     void checkArray(const Required& required) const {
         const auto found = json_.find(required.array);
         if (found == json_.end() || !isArray(*found, Thing{}.at(required.array))) return;
@@ -106,7 +114,11 @@ private:
             const Json& element = (*found)[i];
             const Thing owner = thing(required.kind, required.array, i);
             if (!isObject(element, owner)) continue;
-            for (const char* property : required.properties) require(element, owner, property);
+            for (const char* property : required.properties) {
+                require(element, owner, property);
+                if (std::ranges::find(kIntegers, property) != std::end(kIntegers))
+                    requireInteger(element, owner, property);
+            }
             checkValues(required.array, element, owner);
             if (required.array == std::string_view("meshes")) checkPrimitives(element, owner);
             if (required.array == std::string_view("materials")) checkMaterial(element, owner);
@@ -136,7 +148,12 @@ private:
         if (found == mesh.end() || !isArray(*found, owner.at("primitives"))) return;
         for (size_t p = 0; p < found->size(); ++p) {
             const Thing primitive = owner.called(fmt::format("primitive {}", p)).at("primitives").at(p);
-            if (isObject((*found)[p], primitive)) require((*found)[p], primitive, "attributes");
+            if (!isObject((*found)[p], primitive)) continue;
+            require((*found)[p], primitive, "attributes");
+            const Thing at = primitive.at("attributes");
+            if (!(*found)[p].contains("attributes") || !isObject((*found)[p]["attributes"], at)) continue;
+            for (const auto& [name, accessor] : (*found)[p]["attributes"].items())
+                requireInteger((*found)[p]["attributes"], at, name);
         }
     }
 

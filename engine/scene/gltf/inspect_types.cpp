@@ -8,11 +8,13 @@ namespace {
 
 using Json = nlohmann::json;
 
-enum class Kind { Number, Boolean, Text, Object, Numbers };
+// Index: a number, of which the guard has seen to all but arrays and objects.
+enum class Kind { Number, Index, Boolean, Text, Object, Array, Numbers };
 
 const char* nameOf(Kind kind) {
     switch (kind) {
     case Kind::Number:
+    case Kind::Index:
         return "number";
     case Kind::Boolean:
         return "boolean";
@@ -20,6 +22,8 @@ const char* nameOf(Kind kind) {
         return "text";
     case Kind::Object:
         return "object";
+    case Kind::Array:
+        return "array";
     default:
         return "array of numbers";
     }
@@ -72,19 +76,30 @@ const Expected kExpected[] = {
     {"materials/*/extensions/*/*/extensions/KHR_texture_transform", {"rotation"}, Kind::Number},
     {"nodes/*", {"name"}, Kind::Text},
     {"nodes/*", {"translation", "rotation", "scale", "matrix", "weights"}, Kind::Numbers},
+    {"nodes/*", {"mesh", "camera", "skin"}, Kind::Index},
+    {"nodes/*", {"children"}, Kind::Numbers},
     {"nodes/*", {"extensions"}, Kind::Object},
     {"nodes/*/extensions", {"*"}, Kind::Object},
+    {"nodes/*/extensions/KHR_lights_punctual", {"light"}, Kind::Index},
     {"nodes/*/extensions/EXT_mesh_gpu_instancing", {"attributes"}, Kind::Object},
     {"meshes/*", {"weights"}, Kind::Numbers},
+    {"meshes/*", {"primitives"}, Kind::Array},
+    {"meshes/*/primitives/*", {"indices", "material", "mode"}, Kind::Index},
+    {"meshes/*/primitives/*", {"targets"}, Kind::Array},
     {"meshes/*/primitives/*", {"extensions"}, Kind::Object},
     {"meshes/*/primitives/*/extensions", {"*"}, Kind::Object},
     {"accessors/*", {"normalized"}, Kind::Boolean},
+    {"accessors/*", {"bufferView", "byteOffset"}, Kind::Index},
+    {"bufferViews/*", {"byteOffset", "byteStride"}, Kind::Index},
     {"bufferViews/*", {"extensions"}, Kind::Object},
     {"bufferViews/*/extensions", {"*"}, Kind::Object},
     {"bufferViews/*/extensions/EXT_meshopt_compression", {"mode", "filter"}, Kind::Text},
+    {"textures/*", {"source", "sampler"}, Kind::Index},
     {"textures/*", {"extensions"}, Kind::Object},
     {"textures/*/extensions", {"*"}, Kind::Object},
     {"cameras/*/perspective", {"aspectRatio", "zfar"}, Kind::Number},
+    {"scenes/*", {"nodes"}, Kind::Numbers},
+    {"", {"scene"}, Kind::Index},
     {"", {"extensions"}, Kind::Object},
     {"extensions", {"*"}, Kind::Object},
     {"extensions/KHR_lights_punctual/lights/*", {"intensity", "range"}, Kind::Number},
@@ -142,6 +157,10 @@ private:
         switch (kind) {
         case Kind::Number:
             return json.is_number();
+        case Kind::Index:
+            return !json.is_structured();
+        case Kind::Array:
+            return json.is_array();
         case Kind::Boolean:
             return json.is_boolean();
         case Kind::Text:

@@ -193,7 +193,8 @@ TEST_CASE("Draco data cut short anywhere") {
             CAPTURE(method, size);
             Bytes cut(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size));
             if (cut.empty()) cut.push_back(0);
-            expectError(ExitCode::BadData, "mesh 0 primitive 0: the", [&] { load(dracoScene(cut)); });
+            expectError(ExitCode::BadData, "mesh 0 primitive 0: DRACO_INVALID_STREAM: the",
+                        [&] { load(dracoScene(cut)); });
         }
     }
 }
@@ -205,13 +206,13 @@ TEST_CASE("Draco with counts that lie, and what is not there") {
         spoil(builder);
         expectError(ExitCode::BadData, sentence, [&] { load(builder); });
     };
-    check("mesh 0 primitive 0 POSITION: 81 elements, accessor 0 has 80",
+    check("mesh 0 primitive 0 POSITION: DRACO_ACCESSOR_MISMATCH: 81 elements, accessor 0 has 80",
           [](GltfBuilder& b) { b.json["accessors"][0]["count"] = 80; });
     check("81 elements, accessor 0 has 9007199254740992",
           [](GltfBuilder& b) { b.json["accessors"][0]["count"] = 1ull << 53; });
-    check("mesh 0 primitive 0 indices: 384 elements, accessor 1 has 3",
+    check("mesh 0 primitive 0 indices: DRACO_ACCESSOR_MISMATCH: 384 elements, accessor 1 has 3",
           [](GltfBuilder& b) { b.json["accessors"][1]["count"] = 3; });
-    check("POSITION: 3 components, those of accessor 0 are others",
+    check("POSITION: DRACO_ACCESSOR_MISMATCH: 3 components, those of accessor 0 are others",
           [](GltfBuilder& b) { b.json["accessors"][0]["type"] = "VEC4"; });
     check("UNRESOLVED_REFERENCE: the data have no attribute 5",
           [](GltfBuilder& b) { dracoOf(b)["attributes"]["POSITION"] = 5; });
@@ -395,7 +396,8 @@ TEST_CASE("meshopt data cut short, damaged, and with counts that lie") {
             GltfBuilder builder = meshoptScene();
             Json& length = meshoptOf(builder, view)["byteLength"];
             length = std::max(length.get<int>() - less, 1);
-            expectError(ExitCode::BadData, fmt::format("buffer view {}: the ", view), [&] { load(builder); });
+            expectError(ExitCode::BadData, fmt::format("buffer view {}: MESHOPT_INVALID_STREAM: the ", view),
+                        [&] { load(builder); });
         }
     const auto check = [](const std::string& sentence,
                           const std::function<void(GltfBuilder&, Json&)>& spoil) {

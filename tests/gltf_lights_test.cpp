@@ -120,13 +120,14 @@ TEST_CASE("the origin is that of the geometry; of lights only where they are alo
 }
 
 TEST_CASE("lights with impossible values are refused") {
-    checkRefused(R"({"type": "area"})", "light 0: VALUE_NOT_IN_LIST: type 'area'");
+    checkRefused(R"({"type": "area"})",
+                 "light 0: VALUE_NOT_IN_LIST: type 'area', there are point, spot, directional");
     checkRefused(R"({"type": "point", "intensity": -1})", "light 0: VALUE_NOT_IN_RANGE: intensity -1");
     checkRefused(R"({"type": "point", "name": "sun", "range": 0})",
                  "light 0 'sun': VALUE_NOT_IN_RANGE: range 0");
-    checkRefused(R"({"type": "point", "range": -2})", "VALUE_NOT_IN_RANGE: range -2");
+    checkRefused(R"({"type": "point", "range": -2})", "VALUE_NOT_IN_RANGE: range -2 is not above 0");
     checkRefused(R"({"type": "point", "color": [1, 1]})", "ARRAY_LENGTH_NOT_IN_LIST: color of 2 numbers");
-    checkRefused(R"({"type": "point", "color": [1, -1, 0]})", "VALUE_NOT_IN_RANGE: color -1");
+    checkRefused(R"({"type": "point", "color": [1, -1, 0]})", "VALUE_NOT_IN_RANGE: color -1 is below 0");
     checkRefused(R"({"type": "spot", "spot": {"innerConeAngle": -0.1}})",
                  "VALUE_NOT_IN_RANGE: innerConeAngle -0.1");
     checkRefused(R"({"type": "spot", "spot": {"outerConeAngle": 1.6}})",

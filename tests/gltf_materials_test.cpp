@@ -81,7 +81,8 @@ TEST_CASE("alpha modes, the factor's alpha and the cutoff") {
     const Material old = read(R"({"alphaMode": "BLEND", "extensions": {"KHR_materials_pbrSpecularGlossiness":
         {"diffuseFactor": [1, 1, 1, 0.5]}}})");
     CHECK(old.alpha == 0.5f);
-    checkRefused(R"({"alphaMode": "GLASS"})", "material 0: VALUE_NOT_IN_LIST: alphaMode 'GLASS'");
+    checkRefused(R"({"alphaMode": "GLASS"})",
+                 "material 0: VALUE_NOT_IN_LIST: alphaMode 'GLASS', there are OPAQUE, MASK, BLEND");
     CHECK(warnings(textured(R"({"alphaCutoff": -1})")) ==
           "material 0: alphaCutoff -1 is outside 0 to 1000000 and was clamped\n");
 }
@@ -117,11 +118,43 @@ TEST_CASE("transmission, as a sheet and as a solid that absorbs") {
     CHECK(std::isfinite(none.materials[0].absorption.x));
 }
 
+TEST_CASE("an index of refraction is 0, or 1 and above") {
+    const auto ior = [](const char* value) {
+        return textured(fmt::format(R"({{"extensions": {{"KHR_materials_ior": {{"ior": {}}}}}}})", value));
+    };
+    CHECK(load(ior("0")).materials[0].ior == 0.0f);
+    CHECK(warnings(ior("0")).empty());
+    CHECK(load(ior("0.5")).materials[0].ior == 1.0f);
+    CHECK(warnings(ior("0.5")) == "material 0: ior 0.5 is neither 0 nor in 1 to 1000000 and was clamped\n");
+}
+
+TEST_CASE("values of another type are ignored, and loading says so") {
+    const GltfBuilder builder = textured(R"({"emissiveFactor": "x", "extensions": {"KHR_materials_ior":
+        {"ior": "big"}, "KHR_materials_specular": {"specularColorFactor": [0, "x", 0]}, "KHR_materials_unlit": 1,
+        "KHR_materials_volume": {"thicknessFactor": 1, "attenuationDistance": "x", "attenuationColor": [0, 0, 0]}}})");
+    const Material material = load(builder).materials[0];
+    CHECK(material.emission == glm::vec3(0.0f));
+    CHECK(material.ior == 1.5f);
+    CHECK(material.specularColor == glm::vec3(1.0f));
+    CHECK_FALSE(material.isUnlit);
+    CHECK(material.absorption == glm::vec3(0.0f));
+    const std::string at = "/materials/0/extensions/KHR_materials_";
+    CHECK(warnings(builder) ==
+          "/materials/0/emissiveFactor: TYPE_MISMATCH: \"x\" is no array of numbers and is ignored\n" + at +
+              "unlit: TYPE_MISMATCH: 1 is no object and is ignored\n" + at +
+              "ior/ior: TYPE_MISMATCH: \"big\" is no number and is ignored\n" + at +
+              "specular/specularColorFactor: TYPE_MISMATCH: element 1 is no number\n" + at +
+              "volume/attenuationDistance: TYPE_MISMATCH: \"x\" is no number and is ignored\n");
+}
+
 TEST_CASE("an unlit material is a lamp of its base colour") {
-    const Material material =
-        read(R"({"alphaMode": "MASK", "emissiveFactor": [9, 9, 9], "normalTexture": {"index": 0},
+    const GltfBuilder builder =
+        textured(R"({"alphaMode": "MASK", "emissiveFactor": [9, 9, 9], "normalTexture": {"index": 0},
         "pbrMetallicRoughness": {"baseColorFactor": [0.5, 1, 0, 0.75], "baseColorTexture": {"index": 0, "texCoord": 1}},
         "extensions": {"KHR_materials_unlit": {}, "KHR_materials_transmission": {"transmissionFactor": 1}}})");
+    const Material material = load(builder).materials[0];
+    CHECK(warnings(builder) == "material 0: KHR_materials_unlit makes it unlit, and its "
+                               "KHR_materials_transmission is ignored\n");
     CHECK(material.isUnlit);
     CHECK(material.doubleSided);
     CHECK(material.emission == glm::vec3(0.5f, 1, 0));
@@ -226,8 +259,12 @@ TEST_CASE("vertex colours of three or four components, floats or normalised inte
           glm::vec4(0, 0, 1e6f, 1));
     CHECK(
         notes ==
-        "mesh 0 primitive 0: ACCESSOR_INVALID_FLOAT: colours that are negative or not finite are clamped to "
-        "0 to 1000000\n");
+        "mesh 0 primitive 0: ACCESSOR_INVALID_FLOAT: colours that are negative, above 1000000 or not finite "
+        "are clamped to 0 to 1000000, NaN to 0\n");
+    expectError(ExitCode::BadData,
+                "INVALID_FORMAT: accessor 3 holds VEC2 of floats, allowed are VEC3 or VEC4 of floats, "
+                "normalised unsigned bytes, normalised unsigned shorts",
+                [&] { colorOf(5126, "VEC2", std::vector<float>(9)); });
     for (const char* shape : {"VEC2", "SCALAR"})
         expectError(ExitCode::BadData,
                     "mesh 0 primitive 0 COLOR_0: MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_INVALID_FORMAT",
@@ -279,6 +316,11 @@ TEST_CASE("a quantised position is scaled by its node") {
     builder.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = accessor;
     builder.json["nodes"][0]["scale"] = {0.5, 0.5, 0.5};
     CHECK(load(builder).vertices[1].position == glm::vec3(16383.5f, 0, 0));
+    CHECK(warnings(builder) ==
+          "mesh 0 primitive 0 POSITION: UNDECLARED_EXTENSION: VEC3 of shorts need KHR_mesh_quantization, "
+          "which extensionsUsed does not declare\n");
+    builder.json["extensionsUsed"].push_back("KHR_mesh_quantization");
+    CHECK(warnings(builder).empty());
     builder.json["accessors"][accessor]["normalized"] = true;
     CHECK(load(builder).vertices[1].position == glm::vec3(0.5f, 0, 0));
 }

@@ -103,14 +103,16 @@ TEST_CASE("instances that are broken, or too many") {
           [](GltfBuilder&, Json& attributes) { attributes["TRANSLATION"] = -1; });
     check("attributes/SCALE: VALUE_NOT_IN_RANGE",
           [](GltfBuilder&, Json& attributes) { attributes["SCALE"] = 1ull << 32; });
-    check("instances, another attribute has", [](GltfBuilder& builder, Json& attributes) {
-        attributes["SCALE"] = builder.vec3({{1, 1, 1}});
-    });
-    check("node 0 ROTATION: an accessor of another format is needed",
+    check("INSTANCING_UNEQUAL_ACCESSOR_COUNT: 1 instances, another attribute has",
           [](GltfBuilder& builder, Json& attributes) {
-              attributes["ROTATION"] = builder.vec3({{1, 1, 1}, {1, 1, 1}});
+              attributes["SCALE"] = builder.vec3({{1, 1, 1}});
           });
-    check("node 0 SCALE: an accessor of another format is needed",
+    check(
+        "node 0 ROTATION: INSTANCING_ACCESSOR_INVALID_FORMAT: an accessor of another format is needed: VEC4",
+        [](GltfBuilder& builder, Json& attributes) {
+            attributes["ROTATION"] = builder.vec3({{1, 1, 1}, {1, 1, 1}});
+        });
+    check("node 0 SCALE: INSTANCING_ACCESSOR_INVALID_FORMAT: an accessor of another format is needed: VEC3",
           [](GltfBuilder& builder, Json& attributes) {
               attributes["SCALE"] = builder.accessor(builder.view(std::vector<int16_t>(8)), 5122, 2, "VEC3");
           });
@@ -254,6 +256,13 @@ TEST_CASE("a skin holds its mesh where its joints are") {
     attributesOf(builder)["WEIGHTS_0"] =
         builder.vec4({{0, 0, 0, 0}, {3, -1, 0, 0}, {0.25f, 0.25f, std::nanf(""), 0}});
     const Scene scaled = load(builder);
+    CHECK(
+        joined(scaled) ==
+        "skins stand at rest, at the transforms of their joints\n"
+        "mesh 0 primitive 0: ACCESSOR_INVALID_FLOAT: weights of joints that are negative or not finite are "
+        "taken as 0\n"
+        "mesh 0 primitive 0: ACCESSOR_WEIGHTS_NON_NORMALIZED: vertices without a weight above 0 hang on the "
+        "skin's first joint\n");
     for (int c = 0; c < 3; ++c) CHECK(near(corner(scaled, 0, c), corner(scene, 0, c)));
 
     // The inverse matrices put the mesh into the joint's space.

@@ -399,6 +399,45 @@ TEST_CASE("validate lists the faults of the JSON text, which loading stops at") 
     CHECK(loadingError(file).find("/accessors/0/count: TYPE_MISMATCH") != std::string::npos);
 }
 
+TEST_CASE("validate warns of values of another type, each at its place") {
+    const TempFolder folder;
+    const auto file = spoiled(folder, [](Json& json) {
+        json["materials"][0]["doubleSided"] = 1;
+        json["materials"][0]["pbrMetallicRoughness"] = {{"roughnessFactor", std::string(99, 'x')},
+                                                        {"baseColorFactor", 0.5}};
+        json["materials"][0]["emissiveTexture"]["extensions"]["KHR_texture_transform"]["offset"] = "x";
+        json["materials"][0]["extensions"]["KHR_materials_transmission"]["transmissionTexture"] = {1};
+        json["nodes"][0]["translation"] = "x";
+        json["nodes"][0]["mesh"] = Json::object();
+        json["nodes"][1]["extensions"]["KHR_lights_punctual"] = "x";
+        json["accessors"][0]["normalized"] = nullptr;
+        json["extensions"]["KHR_lights_punctual"]["lights"][1]["range"] = "far";
+        json["extensions"]["KHR_lights_punctual"]["lights"][1]["spot"]["outerConeAngle"] = {1};
+        json["extras"]["materials"] = {{{"doubleSided", 1}}};
+    });
+    std::vector<std::string> found;
+    for (const Finding& finding : validateScene(file))
+        if (finding.code == "TYPE_MISMATCH") found.push_back(finding.pointer + " " + finding.sentence);
+    const std::string material = "/materials/0/", light = "/extensions/KHR_lights_punctual/lights/1/";
+    CHECK(found == std::vector<std::string>{
+                       material + "doubleSided 1 is no boolean and is ignored",
+                       material + "pbrMetallicRoughness/roughnessFactor \"" + std::string(39, 'x') +
+                           "... is no number and is ignored",
+                       material + "pbrMetallicRoughness/baseColorFactor 0.5 is no array of numbers and is "
+                                  "ignored",
+                       material + "extensions/KHR_materials_transmission/transmissionTexture an array is no "
+                                  "object and is ignored",
+                       material + "emissiveTexture/extensions/KHR_texture_transform/offset \"x\" is no array "
+                                  "of numbers and is ignored",
+                       "/nodes/0/translation \"x\" is no array of numbers and is ignored",
+                       "/nodes/0/mesh an object is no number and is ignored",
+                       "/nodes/1/extensions/KHR_lights_punctual \"x\" is no object and is ignored",
+                       "/accessors/0/normalized null is no boolean and is ignored",
+                       light + "range \"far\" is no number and is ignored",
+                       light + "spot/outerConeAngle an array is no number and is ignored"});
+    CHECK(loadingError(file).empty());
+}
+
 TEST_CASE("validate tells where the parser refuses") {
     const TempFolder folder;
     const auto file = spoiled(folder, [](Json& json) {
@@ -429,6 +468,47 @@ TEST_CASE("validate tells where the parser refuses") {
     REQUIRE_FALSE(findings.empty());
     CHECK(std::ranges::any_of(
         findings, [](const Finding& f) { return f.code == "IO_ERROR" && f.pointer == "/buffers"; }));
+}
+
+TEST_CASE("validate tells where lights, cameras and materials are refused by the parser") {
+    const TempFolder folder;
+    const auto check = [&](const std::string& expected, const Spoil& spoil) {
+        const auto file = spoiled(folder, spoil);
+        std::vector<std::string> found;
+        for (const Finding& finding : validateScene(file))
+            if (finding.severity == Severity::Error) found.push_back(finding.code + " " + finding.pointer);
+        CHECK(found == std::vector<std::string>{expected});
+        CHECK_FALSE(loadingError(file).empty());
+    };
+    const auto light = [](Json& json) -> Json& {
+        return json["extensions"]["KHR_lights_punctual"]["lights"][1];
+    };
+    const std::string atLight = " /extensions/KHR_lights_punctual/lights/1";
+    check("UNDEFINED_PROPERTY" + atLight + "/type", [&](Json& json) { light(json).erase("type"); });
+    check("TYPE_MISMATCH" + atLight + "/type", [&](Json& json) { light(json)["type"] = 3; });
+    check("UNDEFINED_PROPERTY" + atLight + "/spot", [&](Json& json) { light(json).erase("spot"); });
+    check("TYPE_MISMATCH" + atLight + "/spot", [&](Json& json) { light(json)["spot"] = "wide"; });
+    const std::string atMaterial = " /materials/0/";
+    check("TYPE_MISMATCH" + atMaterial + "normalTexture",
+          [](Json& json) { json["materials"][0]["normalTexture"] = "x"; });
+    check("UNDEFINED_PROPERTY" + atMaterial + "pbrMetallicRoughness/baseColorTexture/index", [](Json& json) {
+        json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = Json::object();
+    });
+    check("ARRAY_LENGTH_NOT_IN_LIST" + atMaterial + "emissiveFactor", [](Json& json) {
+        json["materials"][0]["emissiveFactor"] = {1, 1};
+    });
+    check("TYPE_MISMATCH /accessors/0/count", [](Json& json) { json["accessors"][0]["count"] = {1, 2}; });
+    const std::string atAttributes = " /meshes/0/primitives/0/attributes";
+    check("TYPE_MISMATCH" + atAttributes,
+          [](Json& json) { json["meshes"][0]["primitives"][0]["attributes"] = 3; });
+    check("TYPE_MISMATCH" + atAttributes + "/POSITION",
+          [](Json& json) { json["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = Json::object(); });
+    const std::string atCamera = " /cameras/0/perspective";
+    check("UNDEFINED_PROPERTY" + atCamera, [](Json& json) { json["cameras"][0].erase("perspective"); });
+    check("UNDEFINED_PROPERTY" + atCamera + "/znear",
+          [](Json& json) { json["cameras"][0]["perspective"].erase("znear"); });
+    check("TYPE_MISMATCH" + atCamera + "/yfov",
+          [](Json& json) { json["cameras"][0]["perspective"]["yfov"] = "wide"; });
 }
 
 TEST_CASE("validate reads indices and pictures too") {
@@ -505,6 +585,7 @@ TEST_CASE("validate takes several files and passes those without errors") {
     CHECK(run.code == 0);
     CHECK(run.err.empty());
     CHECK(run.out.find("0 errors, 0 warnings, ") != std::string::npos);
+    CHECK(run.out.find(" not rendered (render --strict refuses)\n") != std::string::npos);
     CHECK(run.out.find("NOT_RENDERED") != std::string::npos);
     CHECK(run.out.find("KHR_materials_sheen") != std::string::npos);
     const Json report = jsonOf("validate " + bad + " " + good, 65);

@@ -398,6 +398,8 @@ TEST_CASE("a script that cannot be used is refused in a sentence") {
         {R"([{"frame": 1, "environment": 2}])", "no environment to scale"},
         {R"([{"frame": 1, "restart": 1}])", "true or false"},
         {R"([{"frame": 1, "lamp": 1}])", "unknown key changes[0].lamp"},
+        {R"([{"frame": 1, "material": {"name": "light", "colour": 1}}])",
+         "unknown key changes[0].material.colour, there are name, base_color, roughness, metallic here"},
     };
     for (const auto& [text, sentence] : cases) {
         std::ofstream(script) << text;

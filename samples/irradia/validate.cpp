@@ -41,7 +41,7 @@ std::string summary(const Findings& findings) {
     const std::string text = fmt::format("{}, {}", counted(count(findings, Severity::Error), "error"),
                                          counted(count(findings, Severity::Warning), "warning"));
     const int64_t infos = count(findings, Severity::Info);
-    return infos == 0 ? text : fmt::format("{}, {} not rendered", text, infos);
+    return infos == 0 ? text : fmt::format("{}, {} not rendered (render --strict refuses)", text, infos);
 }
 
 void printFindings(const std::string& file, const Findings& findings) {
@@ -94,7 +94,11 @@ constexpr const char* kMeaning =
     "and\n"
     "what is wrong there. An error: the scene is refused by `render`. A warning: it is mended or left out. "
     "An\n"
-    "info: valid glTF that is not rendered. Exit code 65 where a scene has errors.";
+    "info: valid glTF that is not rendered. `render` tells both as warnings, which `render --strict` "
+    "refuses;\n"
+    "of accessors' bounds, alignment and lengths, and of animations, `validate` alone tells. Exit code 65 "
+    "where\n"
+    "a scene has errors.";
 
 } // namespace
 

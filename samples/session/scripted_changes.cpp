@@ -57,7 +57,7 @@ SceneChange::Surface readSurface(const Json& json, const JsonFields& outer, cons
     SceneChange::Surface surface;
     surface.material = materialIndex(fields, "name", scene);
     const auto share = [&](const char* key) -> std::optional<float> {
-        if (!fields.has(key)) return std::nullopt;
+        if (!fields.member(key)) return std::nullopt;
         return static_cast<float>(fields.number(key, 0.0, {0.0, 1.0}));
     };
     if (const Json* value = fields.member("base_color"))

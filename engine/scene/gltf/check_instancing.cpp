@@ -29,8 +29,9 @@ private:
             checkIndex(at, "accessor", accessor, model_.accessors.size(), Need::Required);
             checkFormat(at, name, model_.accessors[accessor]);
             if (count != 0 && model_.accessors[accessor].count != count)
-                source_.refuse(at, {}, "{} instances, another attribute has {}",
-                               model_.accessors[accessor].count, count);
+                source_.refuse(at, "INSTANCING_UNEQUAL_ACCESSOR_COUNT",
+                               "{} instances, another attribute has {}", model_.accessors[accessor].count,
+                               count);
             count = model_.accessors[accessor].count;
         }
     }
@@ -43,7 +44,10 @@ private:
         bool isGood = true; // of attributes of the file's own
         if (name == "TRANSLATION" || name == "SCALE") isGood = accessor.type == TINYGLTF_TYPE_VEC3 && isFloat;
         if (name == "ROTATION") isGood = accessor.type == TINYGLTF_TYPE_VEC4 && (isFloat || isPacked);
-        if (!isGood) source_.refuse(at, {}, "an accessor of another format is needed");
+        if (!isGood)
+            source_.refuse(
+                at, "INSTANCING_ACCESSOR_INVALID_FORMAT", "an accessor of another format is needed: {}",
+                name == "ROTATION" ? "VEC4 of floats or of normalised bytes or shorts" : "VEC3 of floats");
     }
 };
 

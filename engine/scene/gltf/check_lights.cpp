@@ -24,16 +24,19 @@ private:
         const Thing owner{thing("light", "lights", index, light.name).name,
                           fmt::format("/extensions/{}/lights/{}", kExtension, index)};
         if (light.type != "point" && light.type != "spot" && light.type != "directional")
-            source_.refuse(owner.at("type"), "VALUE_NOT_IN_LIST", "type '{}'", light.type);
+            source_.refuse(owner.at("type"), "VALUE_NOT_IN_LIST", "type '{}', there are {}", light.type,
+                           "point, spot, directional");
         if (!(light.intensity >= 0))
-            source_.refuse(owner.at("intensity"), "VALUE_NOT_IN_RANGE", "intensity {}", light.intensity);
+            source_.refuse(owner.at("intensity"), "VALUE_NOT_IN_RANGE", "intensity {} is below 0",
+                           light.intensity);
         if (const size_t length = light.color.size(); length != 0 && length != 3)
             source_.refuse(owner.at("color"), "ARRAY_LENGTH_NOT_IN_LIST", "color of {} numbers, not 3",
                            length);
         for (const double channel : light.color)
-            if (!(channel >= 0)) source_.refuse(owner.at("color"), "VALUE_NOT_IN_RANGE", "color {}", channel);
+            if (!(channel >= 0))
+                source_.refuse(owner.at("color"), "VALUE_NOT_IN_RANGE", "color {} is below 0", channel);
         if (hasRange(index) && !(light.range > 0))
-            source_.refuse(owner.at("range"), "VALUE_NOT_IN_RANGE", "range {}", light.range);
+            source_.refuse(owner.at("range"), "VALUE_NOT_IN_RANGE", "range {} is not above 0", light.range);
         if (light.type == "spot") checkAngles(owner.at("spot"), light.spot);
     }
 
@@ -41,17 +44,17 @@ private:
     bool hasRange(size_t index) const {
         const Extension extension = findExtension(model_.extensions, kExtension);
         if (!extension || member(*extension, "lights").ArrayLen() <= index) return false;
-        return extension->Get("lights").Get(static_cast<int>(index)).Has("range");
+        return member(extension->Get("lights").Get(static_cast<int>(index)), "range").IsNumber();
     }
 
     void checkAngles(const Thing& owner, const tinygltf::SpotLight& spot) const {
         constexpr double kMost = 1.57079633 * (1 + 1e-6); // a right angle, as exporters round it
         if (!(spot.innerConeAngle >= 0 && spot.innerConeAngle <= kMost))
-            source_.refuse(owner.at("innerConeAngle"), "VALUE_NOT_IN_RANGE", "innerConeAngle {}",
-                           spot.innerConeAngle);
+            source_.refuse(owner.at("innerConeAngle"), "VALUE_NOT_IN_RANGE",
+                           "innerConeAngle {} is outside 0 to pi/2", spot.innerConeAngle);
         if (!(spot.outerConeAngle > 0 && spot.outerConeAngle <= kMost))
-            source_.refuse(owner.at("outerConeAngle"), "VALUE_NOT_IN_RANGE", "outerConeAngle {}",
-                           spot.outerConeAngle);
+            source_.refuse(owner.at("outerConeAngle"), "VALUE_NOT_IN_RANGE",
+                           "outerConeAngle {} is not above 0 and up to pi/2", spot.outerConeAngle);
         if (spot.innerConeAngle > spot.outerConeAngle)
             source_.refuse(owner, kAngles, "innerConeAngle {} beyond outerConeAngle {}", spot.innerConeAngle,
                            spot.outerConeAngle);

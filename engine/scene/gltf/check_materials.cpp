@@ -47,7 +47,8 @@ private:
         const tinygltf::Material& material = model_.materials[index];
         const Thing owner = thing("material", "materials", index, material.name);
         if (material.alphaMode != "OPAQUE" && material.alphaMode != "MASK" && material.alphaMode != "BLEND")
-            source_.refuse(owner.at("alphaMode"), "VALUE_NOT_IN_LIST", "alphaMode '{}'", material.alphaMode);
+            source_.refuse(owner.at("alphaMode"), "VALUE_NOT_IN_LIST", "alphaMode '{}', there are {}",
+                           material.alphaMode, "OPAQUE, MASK, BLEND");
 
         const auto& pbr = material.pbrMetallicRoughness;
         const Thing pbrThing = owner.at("pbrMetallicRoughness");

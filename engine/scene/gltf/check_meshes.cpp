@@ -2,6 +2,7 @@
 #include "engine/scene/gltf/model_check.h"
 #include "engine/scene/gltf/primitives.h"
 #include <algorithm>
+#include <fmt/ranges.h>
 #include <span>
 
 namespace irradia::gltf {
@@ -13,23 +14,24 @@ struct Format {
     std::string_view name; // or how it begins, up to the number of the set
     std::vector<int> types;
     std::string_view components;
+    std::string_view quantised; // those of KHR_mesh_quantization
 };
 
 // glTF 2.0, 3.7.2.1, and KHR_mesh_quantization.
-const Format kAttributes[] = {{"POSITION", {TINYGLTF_TYPE_VEC3}, "fbBuUsSwW"},
-                              {"NORMAL", {TINYGLTF_TYPE_VEC3}, "fBS"},
-                              {"TANGENT", {TINYGLTF_TYPE_VEC4}, "fBS"},
-                              {"TEXCOORD_", {TINYGLTF_TYPE_VEC2}, "fbBuUsSwW"},
-                              {"COLOR_", {TINYGLTF_TYPE_VEC3, TINYGLTF_TYPE_VEC4}, "fUW"},
-                              {"JOINTS_", {TINYGLTF_TYPE_VEC4}, "uw"},
-                              {"WEIGHTS_", {TINYGLTF_TYPE_VEC4}, "fUW"}};
+const Format kAttributes[] = {{"POSITION", {TINYGLTF_TYPE_VEC3}, "fbBuUsSwW", "bBuUsSwW"},
+                              {"NORMAL", {TINYGLTF_TYPE_VEC3}, "fBS", "BS"},
+                              {"TANGENT", {TINYGLTF_TYPE_VEC4}, "fBS", "BS"},
+                              {"TEXCOORD_", {TINYGLTF_TYPE_VEC2}, "fbBuUsSwW", "bBusSw"},
+                              {"COLOR_", {TINYGLTF_TYPE_VEC3, TINYGLTF_TYPE_VEC4}, "fUW", ""},
+                              {"JOINTS_", {TINYGLTF_TYPE_VEC4}, "uw", ""},
+                              {"WEIGHTS_", {TINYGLTF_TYPE_VEC4}, "fUW", ""}};
 
 // glTF 2.0, 3.7.2.2: what they add to these.
-const Format kTargets[] = {{"POSITION", {TINYGLTF_TYPE_VEC3}, "fbBuUsSwW"},
-                           {"NORMAL", {TINYGLTF_TYPE_VEC3}, "fBS"},
-                           {"TANGENT", {TINYGLTF_TYPE_VEC3}, "fBS"},
-                           {"TEXCOORD_", {TINYGLTF_TYPE_VEC2}, "fbBuUsSwW"},
-                           {"COLOR_", {TINYGLTF_TYPE_VEC3, TINYGLTF_TYPE_VEC4}, "fBUSW"}};
+const Format kTargets[] = {{"POSITION", {TINYGLTF_TYPE_VEC3}, "fbBuUsSwW", "bBuUsSwW"},
+                           {"NORMAL", {TINYGLTF_TYPE_VEC3}, "fBS", "BS"},
+                           {"TANGENT", {TINYGLTF_TYPE_VEC3}, "fBS", "BS"},
+                           {"TEXCOORD_", {TINYGLTF_TYPE_VEC2}, "fbBuUsSwW", "busw"},
+                           {"COLOR_", {TINYGLTF_TYPE_VEC3, TINYGLTF_TYPE_VEC4}, "fBUSW", ""}};
 
 // Null for attributes of the file's own, which nobody reads.
 const Format* formatOf(std::string_view name, std::span<const Format> formats) {
@@ -41,6 +43,23 @@ const Format* formatOf(std::string_view name, std::span<const Format> formats) {
 
 constexpr char kNoLetter = '?';
 
+struct Component {
+    char letter;
+    std::string_view name;
+};
+constexpr Component kComponents[] = {{'f', "floats"},
+                                     {'F', "normalised floats"},
+                                     {'b', "bytes"},
+                                     {'B', "normalised bytes"},
+                                     {'u', "unsigned bytes"},
+                                     {'U', "normalised unsigned bytes"},
+                                     {'s', "shorts"},
+                                     {'S', "normalised shorts"},
+                                     {'w', "unsigned shorts"},
+                                     {'W', "normalised unsigned shorts"},
+                                     {'i', "unsigned integers"},
+                                     {'I', "normalised unsigned integers"}};
+
 char componentLetter(const tinygltf::Accessor& accessor) {
     constexpr std::string_view kPlain = "buswif", kNormalised = "BUSWIF";
     constexpr int kOrder[] = {TINYGLTF_COMPONENT_TYPE_BYTE,         TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE,
@@ -49,6 +68,37 @@ char componentLetter(const tinygltf::Accessor& accessor) {
     const auto* found = std::ranges::find(kOrder, accessor.componentType);
     if (found == std::end(kOrder)) return kNoLetter;
     return (accessor.normalized ? kNormalised : kPlain)[static_cast<size_t>(found - kOrder)];
+}
+
+// Of types and components, as "VEC3 or VEC4 of floats, unsigned bytes".
+std::string wordsOf(std::span<const int> types, std::string_view components) {
+    const auto nameOfType = [](int type) -> std::string_view {
+        switch (type) {
+        case TINYGLTF_TYPE_SCALAR:
+            return "SCALAR";
+        case TINYGLTF_TYPE_VEC2:
+            return "VEC2";
+        case TINYGLTF_TYPE_VEC3:
+            return "VEC3";
+        case TINYGLTF_TYPE_VEC4:
+            return "VEC4";
+        default:
+            return "matrices";
+        }
+    };
+    const auto nameOfComponent = [](char letter) -> std::string_view {
+        const auto* const found = std::ranges::find(kComponents, letter, &Component::letter);
+        return found == std::end(kComponents) ? "unknown" : found->name;
+    };
+    std::vector<std::string_view> typeNames, componentNames;
+    for (const int type : types) typeNames.push_back(nameOfType(type));
+    for (const char letter : components) componentNames.push_back(nameOfComponent(letter));
+    return fmt::format("{} of {}", fmt::join(typeNames, " or "), fmt::join(componentNames, ", "));
+}
+
+std::string wordsOf(const tinygltf::Accessor& accessor) {
+    const char letter = componentLetter(accessor);
+    return wordsOf(std::span(&accessor.type, 1), {&letter, 1});
 }
 
 bool isAllowed(const Format* format, const tinygltf::Accessor& accessor) {
@@ -123,10 +173,12 @@ private:
         checkIndex(owner, "accessor", primitive.indices, model_.accessors.size(), Need::Optional);
         if (primitive.indices == -1) return;
         const tinygltf::Accessor& accessor = model_.accessors[primitive.indices];
+        constexpr int kScalar[] = {TINYGLTF_TYPE_SCALAR};
         if (accessor.type != TINYGLTF_TYPE_SCALAR || !isIndexType(accessor.componentType) ||
             accessor.normalized)
-            source_.refuse(owner, "MESH_PRIMITIVE_INDICES_ACCESSOR_INVALID_FORMAT", "accessor {}",
-                           primitive.indices);
+            source_.refuse(owner, "MESH_PRIMITIVE_INDICES_ACCESSOR_INVALID_FORMAT",
+                           "accessor {} holds {}, allowed are {}", primitive.indices, wordsOf(accessor),
+                           wordsOf(kScalar, "uwi"));
     }
 
     void checkAttribute(const Thing& owner, const tinygltf::Primitive& primitive, const std::string& name,
@@ -135,7 +187,10 @@ private:
         checkIndex(what, "accessor", index, model_.accessors.size(), Need::Required);
         const tinygltf::Accessor& accessor = model_.accessors[index];
         if (!isAllowed(format, accessor))
-            source_.refuse(what, "MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_INVALID_FORMAT", "accessor {}", index);
+            source_.refuse(what, "MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_INVALID_FORMAT",
+                           "accessor {} holds {}, allowed are {}", index, wordsOf(accessor),
+                           wordsOf(format->types, format->components));
+        warnOfQuantisation(what, accessor, format);
         const auto position = primitive.attributes.find("POSITION");
         if (position == primitive.attributes.end()) return;
         checkIndex(owner.called("POSITION").at("POSITION"), "accessor", position->second,
@@ -144,6 +199,16 @@ private:
         if (accessor.count != vertices)
             source_.refuse(what, "MESH_PRIMITIVE_UNEQUAL_ACCESSOR_COUNT", "{} for {} positions",
                            accessor.count, vertices);
+    }
+
+    // Readers without the extension refuse such accessors.
+    void warnOfQuantisation(const Thing& what, const tinygltf::Accessor& accessor,
+                            const Format* format) const {
+        constexpr const char* kName = "KHR_mesh_quantization";
+        if (!format || std::ranges::find(model_.extensionsUsed, kName) != model_.extensionsUsed.end()) return;
+        if (format->quantised.find(componentLetter(accessor)) != std::string_view::npos)
+            source_.warn(what, "UNDECLARED_EXTENSION", "{} need {}, which extensionsUsed does not declare",
+                         wordsOf(accessor), kName);
     }
 };
 

@@ -9,6 +9,7 @@ namespace {
 constexpr uint64_t kMaxDecodedBytes = uint64_t{1} << 30; // in all
 // What either codec makes of a byte at most, in what anybody stores: runs of what repeats excepted.
 constexpr uint64_t kMaxRatio = 4096;
+constexpr std::string_view kTooLarge = "COMPRESSED_DATA_TOO_LARGE"; // a name of ours
 constexpr uint64_t kAlwaysAllowed = uint64_t{1} << 16;
 
 } // namespace
@@ -27,9 +28,9 @@ std::span<const uint8_t> DecodedData::encoded(const Thing& at, int buffer, uint6
 
 void DecodedData::count(const Thing& at, uint64_t bytes, uint64_t encoded) {
     if (bytes > kAlwaysAllowed && bytes / kMaxRatio > encoded)
-        source_.refuse(at, {}, "{} compressed bytes cannot hold {}", encoded, bytes);
+        source_.refuse(at, kTooLarge, "{} compressed bytes cannot hold {}", encoded, bytes);
     if (bytes > kMaxDecodedBytes - bytes_)
-        source_.refuse(at, {}, "with it the compressed geometry has more than the {} bytes allowed",
+        source_.refuse(at, kTooLarge, "with it the compressed geometry has more than the {} bytes allowed",
                        kMaxDecodedBytes);
     bytes_ += bytes;
 }

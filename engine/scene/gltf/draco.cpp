@@ -14,6 +14,10 @@
 namespace irradia::gltf {
 namespace {
 
+// Khronos' validator has no names for what is wrong inside the data.
+constexpr std::string_view kInvalid = "DRACO_INVALID_STREAM";
+constexpr std::string_view kMismatch = "DRACO_ACCESSOR_MISMATCH"; // the data are others than declared
+
 constexpr uint64_t kBytesOfFace = 64; // what Draco takes for one while it decodes, at least
 
 draco::DecoderBuffer bufferOf(std::span<const uint8_t> bytes) {
@@ -82,8 +86,8 @@ private:
         draco::DracoHeader header;
         if (!draco::PointCloudDecoder::DecodeHeader(&buffer, &header).ok()) refuseDamage("it has no header");
         if (header.version_major != 2 || header.version_minor != 2)
-            source_.refuse(at_, {}, "Draco's bitstream {}.{}, only 2.2 can be read", header.version_major,
-                           header.version_minor);
+            source_.refuse(at_, "DRACO_UNKNOWN_VERSION", "Draco's bitstream {}.{}, only 2.2 can be read",
+                           header.version_major, header.version_minor);
         if (header.encoder_type != draco::TRIANGULAR_MESH) refuseDamage("it holds no mesh");
         buffer.set_bitstream_version(static_cast<uint16_t>(DRACO_BITSTREAM_VERSION(2, 2)));
         draco::GeometryMetadata metadata;
@@ -111,7 +115,7 @@ private:
         tinygltf::Accessor& accessor = checkedAccessor(at, found->second, mesh.num_points());
         if (attribute->num_components() !=
             tinygltf::GetNumComponentsInType(static_cast<uint32_t>(accessor.type)))
-            source_.refuse(at, {}, "{} components, those of accessor {} are others",
+            source_.refuse(at, kMismatch, "{} components, those of accessor {} are others",
                            int{attribute->num_components()}, found->second);
         setData(accessor, pointValues(at, mesh, *attribute, accessor));
     }
@@ -121,7 +125,7 @@ private:
             source_.refuse(at, "UNRESOLVED_REFERENCE", "accessor {} of {}", index, model_.accessors.size());
         tinygltf::Accessor& accessor = model_.accessors[index];
         if (accessor.count != count)
-            source_.refuse(at, {}, "{} elements, accessor {} has {}", count, index, accessor.count);
+            source_.refuse(at, kMismatch, "{} elements, accessor {} has {}", count, index, accessor.count);
         return accessor;
     }
 
@@ -188,7 +192,7 @@ private:
     }
 
     [[noreturn]] void refuseDamage(std::string_view why) const {
-        source_.refuse(at_, {}, "the {} bytes of compressed data are damaged: {}", encodedBytes_, why);
+        source_.refuse(at_, kInvalid, "the {} bytes of compressed data are damaged: {}", encodedBytes_, why);
     }
 
     const SourceFile& source_;

@@ -1,5 +1,5 @@
-// Faults that a renderer can live with, and which cost more to find than a load should take: for validation
-// alone, as warnings.
+// Faults that a renderer can live with, as warnings. Those of accessors and animations cost more to find than
+// a load should take: they are for validation alone.
 #pragma once
 
 #include "engine/scene/gltf/file.h"
@@ -13,5 +13,9 @@ void inspectAccessors(const SourceFile& source, const tinygltf::Model& model);
 
 // What animations move, though they are not played. The JSON has been parsed into the model.
 void inspectAnimations(const SourceFile& source, const tinygltf::Model& model);
+
+// Values of another JSON type than glTF has there, which are taken for absent. The text is that of an object
+// that has passed the guard.
+void inspectTypes(const SourceFile& source);
 
 } // namespace irradia::gltf

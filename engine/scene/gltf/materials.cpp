@@ -1,6 +1,7 @@
 #include "engine/scene/gltf/materials.h"
 
 #include "engine/scene/gltf/textures.h"
+#include <algorithm>
 #include <cmath>
 
 namespace irradia::gltf {
@@ -19,7 +20,10 @@ public:
         Material material;
         material.name = from_.name;
         readBaseColour(material);
-        if (find("KHR_materials_unlit")) return unlit(std::move(material));
+        if (find("KHR_materials_unlit")) {
+            noteUnlit();
+            return unlit(std::move(material));
+        }
         material.doubleSided = from_.doubleSided;
         readMetallicRoughness(material);
         readSpecularGlossiness(material);
@@ -41,6 +45,14 @@ private:
         if (from_.alphaMode == "MASK") material.alphaMode = AlphaMode::Mask;
         if (from_.alphaMode == "BLEND") material.alphaMode = AlphaMode::Blend;
         material.alphaCutoff = values_.number("alphaCutoff", from_.alphaCutoff, 0, kMaxScale);
+    }
+
+    // KHR_materials_transmission forbids to stand beside KHR_materials_unlit.
+    void noteUnlit() const {
+        if (find("KHR_materials_transmission"))
+            source_.note(Severity::Info, values_.owner().pointer, kNotRendered,
+                         values_.owner().name + ": KHR_materials_unlit makes it unlit, and its "
+                                                "KHR_materials_transmission is ignored");
     }
 
     // Shows its base colour as it is: a lamp that reflects nothing.
@@ -101,7 +113,11 @@ private:
         const Extension extension = find("KHR_materials_ior");
         if (!extension) return;
         const double ior = plainNumber(*extension, "ior", 1.5);
-        material.ior = ior == 0 ? 0.0f : values_.number("ior", ior, 1, kMaxScale);
+        material.ior = static_cast<float>(ior == 0 ? 0.0 : std::clamp(ior, 1.0, kMaxScale));
+        if (ior != 0 && (ior < 1 || ior > kMaxScale)) // 0 lets specular-glossiness have its way
+            source_.note(Severity::Warning, values_.owner().pointer, "VALUE_NOT_IN_RANGE",
+                         fmt::format("{}: ior {} is neither 0 nor in 1 to {} and was clamped",
+                                     values_.owner().name, ior, kMaxScale));
     }
 
     void readSpecular(Material& material) {
@@ -125,7 +141,8 @@ private:
         const Extension extension = find("KHR_materials_volume");
         if (!extension) return;
         material.isThin = values_.number(*extension, "thicknessFactor", 0, 0, kMaxRadiance) == 0.0f;
-        if (material.isThin || !extension->Has("attenuationDistance")) return; // by default infinite
+        const bool isFinite = member(*extension, "attenuationDistance").IsNumber(); // by default it is not
+        if (material.isThin || !isFinite) return;
         constexpr double kLeast = 1e-6; // black would be dense beyond any number
         const double distance = values_.number(*extension, "attenuationDistance", 0, 1e-20, 1e30);
         const glm::vec3 colour = values_.colour(*extension, "attenuationColor", 1);

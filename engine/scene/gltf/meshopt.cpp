@@ -24,7 +24,8 @@ public:
                                            number("byteOffset"), number("byteLength"));
         std::vector<uint8_t> data = decoded.room(owner_, count_ * stride_, bytes.size());
         if (decodeInto(data.data(), bytes) != 0)
-            source_.refuse(owner_, {}, "the {} bytes of compressed data are damaged", bytes.size());
+            source_.refuse(owner_, "MESHOPT_INVALID_STREAM", "the {} bytes of compressed data are damaged",
+                           bytes.size());
         applyFilter(data.data());
         return data;
     }

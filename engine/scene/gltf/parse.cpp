@@ -5,6 +5,7 @@
 #include "engine/scene/gltf/features.h"
 #include "engine/scene/gltf/foreign.h"
 #include "engine/scene/gltf/glb.h"
+#include "engine/scene/gltf/inspect.h"
 #include "engine/scene/gltf/json_guard.h"
 #include "engine/scene/gltf/plain_json.h"
 #include <algorithm>
@@ -99,13 +100,13 @@ bool keepEncoded(tinygltf::Image* image, const int, std::string*, std::string*, 
 }
 
 // tinygltf notes in `err` what it left out and goes on. Only two such notes are harmless: animations are not
-// read here, and a skin without inverseBindMatrices is valid.
+// read here, and a skin without inverseBindMatrices is valid. Of the others the first is told.
 void refuseOmissions(const SourceFile& source, const std::string& errors) {
     std::istringstream lines(errors);
     for (std::string line; std::getline(lines, line);)
         if (!line.empty() && line != "." && line.find("inverseBindMatrices") == std::string::npos &&
             line.find("nimation") == std::string::npos && line.find("'node' property") == std::string::npos)
-            source.report({{}, {}}, {}, "{}", line);
+            source.refuse("{}", line);
 }
 
 std::string firstLine(const std::string& text) {
@@ -119,6 +120,7 @@ JsonFindings readJson(const SourceFile& source) {
     JsonFindings findings = guardJson(source, jsonText(source));
     refuseUnreadableExtensions(source, findings);
     noteExtensions(source, findings);
+    inspectTypes(source);
     return findings;
 }
 

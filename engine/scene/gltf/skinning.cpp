@@ -17,13 +17,14 @@ Skinning::Skinning(const SourceFile& source, const tinygltf::Model& model,
     }
 }
 
-glm::dmat4 Skinning::blend(uint64_t i) const {
+glm::dmat4 Skinning::blend(uint64_t i) {
     glm::dmat4 matrix(0.0);
     double sum = 0;
     for (const Set& set : sets_) {
         const glm::uvec4 joints = set.joints.integers(i);
         const glm::vec4 weights = set.weights.element(i);
         for (int c = 0; c < 4; ++c) {
+            if (!(weights[c] >= 0.0f) || !std::isfinite(weights[c])) badWeights_ = true;
             if (!(weights[c] > 0.0f) || !std::isfinite(weights[c])) continue;
             if (joints[c] >= pose_.joints.size())
                 source_.refuse(owner_.at("attributes"), "ACCESSOR_JOINTS_INDEX_OOB",
@@ -32,10 +33,21 @@ glm::dmat4 Skinning::blend(uint64_t i) const {
             sum += weights[c];
         }
     }
-    return sum > 0 ? matrix / sum : pose_.joints.front();
+    if (sum > 0) return matrix / sum;
+    noWeights_ = true;
+    return pose_.joints.front();
 }
 
-void Skinning::apply(uint64_t i, Vertex& vertex) const {
+void Skinning::noteMends() const {
+    if (badWeights_)
+        source_.warn(owner_, "ACCESSOR_INVALID_FLOAT",
+                     "weights of joints that are negative or not finite are taken as 0");
+    if (noWeights_)
+        source_.warn(owner_, "ACCESSOR_WEIGHTS_NON_NORMALIZED",
+                     "vertices without a weight above 0 hang on the skin's first joint");
+}
+
+void Skinning::apply(uint64_t i, Vertex& vertex) {
     if (sets_.empty()) return;
     const glm::dmat4 matrix = blend(i);
     const glm::dmat3 linear(matrix);

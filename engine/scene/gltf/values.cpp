@@ -23,8 +23,11 @@ double plainNumber(const tinygltf::Value& object, const std::string& key, double
 std::vector<double> numbers(const tinygltf::Value& object, const std::string& key) {
     std::vector<double> values;
     const tinygltf::Value& array = member(object, key);
-    for (size_t i = 0; i < array.ArrayLen(); ++i)
-        values.push_back(array.Get(static_cast<int>(i)).GetNumberAsDouble());
+    for (size_t i = 0; i < array.ArrayLen(); ++i) {
+        const tinygltf::Value& value = array.Get(static_cast<int>(i));
+        if (!value.IsNumber()) return {};
+        values.push_back(value.GetNumberAsDouble());
+    }
     return values;
 }
 

@@ -23,7 +23,7 @@ const tinygltf::Value& member(const tinygltf::Value& object, std::string_view ke
 // A number as it stands there, or what stands for it.
 double plainNumber(const tinygltf::Value& object, const std::string& key, double otherwise);
 
-// The numbers of an array; none where there is no array.
+// The numbers of an array; none where there is no array, or something else in it.
 std::vector<double> numbers(const tinygltf::Value& object, const std::string& key);
 
 class Values {

@@ -88,12 +88,14 @@ glm::vec4 VertexReader::readColor(uint64_t i) {
 }
 
 void VertexReader::noteMends() const {
+    skinning_.noteMends();
     if (badUv_)
         source_.warn(owner_, "ACCESSOR_INVALID_FLOAT",
                      "texture coordinates that are not finite or beyond {} are taken as 0", kMaxUv);
     if (badColor_)
         source_.warn(owner_, "ACCESSOR_INVALID_FLOAT",
-                     "colours that are negative or not finite are clamped to 0 to {}", kMaxColor);
+                     "colours that are negative, above {0} or not finite are clamped to 0 to {0}, NaN to 0",
+                     kMaxColor);
 }
 
 } // namespace irradia::gltf

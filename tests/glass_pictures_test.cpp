@@ -132,7 +132,7 @@ TEST_CASE("glass that is built wrong makes no light") {
         }
         INFO("mean " << mean << ", largest " << largest);
         CHECK(mean < 1.005);
-        CHECK(largest < 1.2f); // 128 samples, each at most some times 1
+        CHECK(largest < 1.2f);                               // 128 samples, each at most some times 1
         if (scene.materials.size() == 2) CHECK(mean > 0.99); // the open one
     }
 }

@@ -4,6 +4,7 @@
 #include "engine/scene/lights/packed_lights.h"
 #include "engine/scene/lights/punctual_lights.h"
 #include "engine/scene/texture_packing.h"
+#include "engine/scene/transparency.h"
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -74,18 +75,6 @@ bool isSpecular(const Material& m) {
     return m.specular > 0.0f || m.metallic > 0.0f || m.transmission > 0.0f;
 }
 
-bool isSheet(const Material& m) {
-    return m.transmission > 0.0f && m.isThin;
-}
-
-bool isSolid(const Material& m) {
-    return m.transmission > 0.0f && !m.isThin;
-}
-
-bool scattersTransmitted(const Material& m) {
-    return isSolid(m) || (isSheet(m) && m.roughness * m.roughness > gpu::kMinAlpha);
-}
-
 void packMaterials(const Scene& scene, PackedScene& out) {
     TexturePacker packer(scene);
     const auto use = [&](const TextureRef& ref, bool srgb, uint32_t bit) {
@@ -136,16 +125,6 @@ uint32_t packOctahedral(const glm::vec3& n) {
     return glm::packSnorm2x16(p);
 }
 
-bool mayLetThrough(const Scene& scene, const Triangle& triangle) {
-    if (triangle.material >= scene.materials.size()) return false; // of scenes that are only traced
-    const Material& m = scene.materials[triangle.material];
-    if (isSheet(m)) return true;
-    if (m.alphaMode == AlphaMode::Opaque) return false;
-    const auto isOpaque = [&](uint32_t vertex) { return scene.vertices[vertex].color.a >= 1.0f; };
-    return m.alpha < 1.0f || m.baseColorTexture.image >= 0 || !isOpaque(triangle.vertex.x) ||
-           !isOpaque(triangle.vertex.y) || !isOpaque(triangle.vertex.z);
-}
-
 void PlannedStates::include(const Scene& state) {
     const std::vector<double> luminances = emissiveLuminances(state);
     emitters.resize(luminances.size(), false);
@@ -185,9 +164,7 @@ PackedScene packScene(const Scene& scene, const PlannedStates& states) {
     packMaterials(scene, out);
     packGeometry(scene, lights.lightOf, out);
     if (out.needs.textures != 0) packAttributes(scene, out);
-    out.needs.transparency =
-        std::ranges::any_of(scene.materials, isSolid) ||
-        std::ranges::any_of(scene.triangles, [&](const Triangle& t) { return mayLetThrough(scene, t); });
+    out.needs.transparency = letsLightThrough(scene);
     out.needs.environment = out.states.environment;
     if (out.needs.environment) packEnvironment(scene.environment, out);
     out.lightShares = lightShares(scene, out.needs);

@@ -21,10 +21,6 @@ struct SceneNeeds {
     bool glass = false;        // some surface scatters what it transmits
 };
 
-// Whether some light may go straight on through a triangle: what its pictures have in fact there is known
-// when a ray meets it.
-bool mayLetThrough(const Scene& scene, const Triangle& triangle);
-
 // States that a scene on a device will take (its geometry and pictures stay as they are): so that its lights
 // and kernels have room for all of them. Include each state; that which is packed counts by itself.
 struct PlannedStates {

@@ -33,11 +33,11 @@ float pairReflectance(float ior, float eta) {
 // Solids' eta keeps away from 1, where refraction turns nothing and has no half vector: by an angle of at most 1e-3.
 float awayFromOne(float eta) { return eta < 1.0 ? min(eta, 1.0 / 1.001) : max(eta, 1.001); }
 
-// To the Bsdf of the same base, metallic, f0 (of the pair of media) and w.
+// To the Bsdf of the same base, metallic, f0 (of the pair of media) and w; eta is away from 1.
 Glass makeGlass(vec3 base, float metallic, float tau, vec3 f0, float w, float eta, bool isSheet) {
     float dielectric = 1.0 - metallic;
     return Glass(dielectric * tau * base, dielectric * tau, dielectric * w * min(f0, vec3(1.0)), dielectric * w, dielectric,
-                 isSheet ? 1.0 : awayFromOne(eta), isSheet);
+                 isSheet ? 1.0 : eta, isSheet);
 }
 
 // 1 - E of the view direction, and what weighs the two sides in the multiple-scattering lobe: 1 - Eavg on the viewer's
@@ -147,8 +147,9 @@ vec3 sampleMultiple(float alpha, vec2 u) {
     return vec3(r * cos(phi), r * sin(phi), sqrt(mu2));
 }
 
-// f(v, l) |l.z| and the density of sampleGlass, over solid angle. `facets` scales what micro-facets scatter.
-BsdfValue evaluateLobes(Bsdf b, Glass g, GlassView view, vec3 v, vec3 l, float mend, float loss, float facets) {
+// f(v, l) |l.z| and the density of sampleGlass, over solid angle. mend is the smaller of v's and l's, loss 1 - E(l) on l's
+// side. Under a light without extent (isPunctual) smooth facets show nothing of it.
+BsdfValue evaluateGlass(Bsdf b, Glass g, GlassView view, vec3 v, vec3 l, float mend, float loss, bool isPunctual) {
     float lz = abs(l.z);
     bool returns = l.z > 0.0;
     bool refracts = l.z < 0.0 && !g.isSheet;
@@ -171,21 +172,11 @@ BsdfValue evaluateLobes(Bsdf b, Glass g, GlassView view, vec3 v, vec3 l, float m
 
     float layer = returns ? kInvPi * (1.0 - fresnel.layer) * mend : 0.0;
     vec3 f = b.diffuse * layer + (returns ? vec3(g.share) : g.tint) * (view.multiple * loss);
-    f += exists ? color * (masked * facets) : vec3(0.0);
+    f += exists && !(isPunctual && b.alpha <= kMinAlpha) ? color * masked : vec3(0.0);
     float pdf = returns ? view.pDiffuse * lz * kInvPi : 0.0;
     pdf += view.pMultiple * (returns ? view.pReturn : 1.0 - view.pReturn) * multipleDensity(lz, b.alpha);
     pdf += exists ? view.pFacets * (returns ? pReflect : 1.0 - pReflect) * visible : 0.0;
     return BsdfValue(f * lz, pdf);
-}
-
-// mend is the smaller of v's and l's, loss is 1 - E(l) on l's side.
-BsdfValue evaluateGlass(Bsdf b, Glass g, GlassView view, vec3 v, vec3 l, float mend, float loss) {
-    return evaluateLobes(b, g, view, v, l, mend, loss, 1.0);
-}
-
-// f(v, l) |l.z| of what a light without extent may show in: smooth facets do not.
-vec3 evaluateGlassPunctual(Bsdf b, Glass g, GlassView view, vec3 v, vec3 l, float mend, float loss) {
-    return evaluateLobes(b, g, view, v, l, mend, loss, b.alpha > kMinAlpha ? 1.0 : 0.0).fCos;
 }
 
 // A direction from v: u.x chooses the lobe and then the side, u.yz the direction in it. 0 where a facet sends it to the

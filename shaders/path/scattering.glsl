@@ -35,8 +35,7 @@ BsdfValue evaluateScattering(Surface s, Scattering x, vec3 l, bool isPunctual) {
         vec3 abc = reflectanceAt(thinCosine(s.glass, abs(l.z)), s.roughness);
         float mend = min(x.mend, glassMend(s.bsdf, s.glass, abs(l.z), abc));
         float loss = glassLossTowards(s.glass, s.bsdf.alpha, l, abc);
-        float facets = isPunctual && s.bsdf.alpha <= kMinAlpha ? 0.0 : 1.0; // as bsdfUnderPunctual
-        BsdfValue value = evaluateLobes(s.bsdf, s.glass, x.glass, x.view, l, mend, loss, facets);
+        BsdfValue value = evaluateGlass(s.bsdf, s.glass, x.glass, x.view, l, mend, loss, isPunctual);
         // Radiance is carried divided by the squared index of where it is: then no face makes light of a wrong one.
         if (l.z < 0.0) value.fCos *= square(s.glass.eta);
         return value;

@@ -3,6 +3,7 @@
 #define IRRADIA_PATH_SURFACE_GLSL
 #include "lib/glass.glsl"
 #include "lib/plane_error.glsl"
+#include "path/material.glsl"
 #include "path/media.glsl"
 #include "path/scene.glsl"
 
@@ -41,38 +42,19 @@ Surface loadSurface(uint primitive, vec2 b, vec3 view, uint media) {
     uvec3 normals = loadQuad(geometry, primitive * kGeometryQuads + 3u).xyz;
     TriangleAttributes a = attributesFor(kAllAttributes, primitive, b);
 
-    uint at = tri.material * kMaterialQuads;
-    vec4 m0 = uintBitsToFloat(loadQuad(materials, at));
-    vec4 m1 = uintBitsToFloat(loadQuad(materials, at + 1u));
-    vec4 m2 = uintBitsToFloat(loadQuad(materials, at + 2u));
-    vec3 base = m0.rgb;
-    float metallic = m0.w;
-    float roughness = m1.w;
-    vec3 f0 = m2.rgb;
-    float specular = m2.w;
+    MaterialPoint m = loadMaterial(tri.material, a);
     float b0 = 1.0 - b.x - b.y;
     vec3 ng = cross(tri.e1, tri.e2);
     float doubleArea = length(ng);
     ng /= doubleArea;
     vec3 ns = b0 * decodeOctahedral(normals.x) + b.x * decodeOctahedral(normals.y) + b.y * decodeOctahedral(normals.z);
     ns = dot(ns, ns) > 1e-8 ? normalize(ns) : ng;
-    if (kTextureMask != 0u) {
-        uvec4 codes = loadQuad(materials, at + 4u);
-        uvec4 codes2 = loadQuad(materials, at + 5u);
-        if ((kTextureMask & kVertexColors) != 0u) base = min(base * a.color.rgb, vec3(1.0)); // no colour makes light
-        if ((kTextureMask & kBaseColorTexture) != 0u) base *= sampleTexture(codes.x, a).rgb;
-        if ((kTextureMask & kMetallicRoughnessTexture) != 0u) {
-            vec4 texel = sampleTexture(codes.y, a);
-            roughness *= texel.g;
-            metallic *= texel.b;
-        }
-        if ((kTextureMask & kNormalTexture) != 0u) {
-            float scale = uintBitsToFloat(loadQuad(materials, at + 3u).x);
-            vec3 bent = perturbNormal(ns, sampleTexture(codes.z, a).xyz, scale, a, tri.handedness, b);
-            ns = codes.z == kNoTexture ? ns : bent;
-        }
-        if ((kTextureMask & kSpecularTexture) != 0u) specular *= sampleTexture(codes2.x, a).a;
-        if ((kTextureMask & kSpecularColorTexture) != 0u) f0 *= sampleTexture(codes2.y, a).rgb;
+    if ((kTextureMask & kNormalTexture) != 0u) {
+        uint at = tri.material * kMaterialQuads;
+        uint code = loadQuad(materials, at + 4u).z;
+        float scale = uintBitsToFloat(loadQuad(materials, at + 3u).x);
+        vec3 bent = perturbNormal(ns, sampleTexture(code, a).xyz, scale, a, tri.handedness, b);
+        ns = code == kNoTexture ? ns : bent;
     }
 
     bool front = dot(ng, view) > 0.0;
@@ -87,24 +69,18 @@ Surface loadSurface(uint primitive, vec2 b, vec3 view, uint media) {
     s.error = pointError(ng, tri.p0, reach, s.position) + heightError(tri.e1, tri.e2, doubleArea, reach);
     s.geometricNormal = ng;
     s.shadingNormal = ns;
-    s.roughness = clamp(roughness, 0.0, 1.0);
-    metallic = clamp(metallic, 0.0, 1.0);
-    float transmission = 0.0;
-    if (kHasTransparency) {
-        transmission = uintBitsToFloat(loadQuad(materials, at + 6u).w);
-        if ((kTextureMask & kTransmissionTexture) != 0u) transmission *= sampleTexture(loadQuad(materials, at + 5u).z, a).r;
-    }
+    s.roughness = m.roughness;
     s.isGlass = false;
     if (kHasGlass) {
         Interface face = interfaceOf(media, tri.material, front);
-        if (face.isSolid) f0 *= pairReflectance(face.index, face.eta);
-        s.glass = makeGlass(base, metallic, transmission, f0, specular, face.eta, !face.isSolid);
-        s.isGlass = transmission > 0.0 && (face.isSolid || square(s.roughness) > kMinAlpha);
+        if (face.isSolid) m.f0 *= pairReflectance(face.index, face.eta);
+        s.glass = makeGlass(m.base, m.metallic, m.transmission, m.f0, m.specular, face.eta, !face.isSolid);
+        s.isGlass = m.transmission > 0.0 && (face.isSolid || square(m.roughness) > kMinAlpha);
         s.mediaHere = face.here;
         s.mediaBeyond = face.beyond;
     }
-    s.bsdf = makeBsdf(base, metallic, s.roughness, f0, specular);
-    if (kHasTransparency) s.bsdf.diffuse *= 1.0 - transmission;
+    s.bsdf = makeBsdf(m.base, m.metallic, m.roughness, m.f0, m.specular);
+    if (kHasTransparency) s.bsdf.diffuse *= 1.0 - m.transmission;
     return s;
 }
 

@@ -3,18 +3,10 @@
 #include "tests/reference/lagrange.h"
 #include "tests/reference/parallel.h"
 #include <algorithm>
-#include <map>
 
 namespace irradia::reference {
 
 namespace {
-
-const QuadratureRule& rule(int n) {
-    thread_local std::map<int, QuadratureRule> rules;
-    auto found = rules.find(n);
-    if (found == rules.end()) found = rules.emplace(n, gaussLegendre(n)).first;
-    return found->second;
-}
 
 // The integrals over L, written over the microfacet normal H (dL = 4 V.H dH): with tan(polar of H) = alpha
 // sinh(y),
@@ -35,7 +27,7 @@ public:
     glm::dvec2 integrate() const {
         const double polarV = std::acos(mu_);
         const double all = heightOf(0.25 * kPi - 0.5 * polarV), none = heightOf(0.25 * kPi + 0.5 * polarV);
-        const auto& polar = rule(order_.polar);
+        const auto& polar = keptRule(order_.polar);
         const glm::dvec2 inner = polar.integrate(0.0, all, [&](double y) { return ring(y); });
         const glm::dvec2 outer = polar.integrate(0.0, 1.0, [&](double t) {
             const double s = std::sin(0.5 * kPi * t);
@@ -56,7 +48,7 @@ private:
         const double bound =
             across > 0.0 ? (0.5 * mu_ / cosine - along) / across : -1.0; // of the azimuth's cosine
         const double last = std::acos(std::clamp(bound, -1.0, 1.0));
-        const glm::dvec2 sum = rule(order_.azimuth).integrate(0.0, 1.0, [&](double t) {
+        const glm::dvec2 sum = keptRule(order_.azimuth).integrate(0.0, 1.0, [&](double t) {
             const double cosVH = along + across * std::cos(last * (1.0 - t * t * t));
             const double cosL = 2.0 * cosVH * cosine - mu_;
             if (cosL <= 0.0) return glm::dvec2(0.0);
@@ -100,7 +92,7 @@ SpecularIntegrals integrateSpecular(double mu, double alpha, IntegralOrder order
 double azimuthalSchlick(double mu, double nu, int order) {
     const double inPlane = mu * nu, across = std::sqrt((1.0 - mu * mu) * (1.0 - nu * nu));
     // (V.H)^2 = (1 + V.L) / 2.
-    return rule(order).integrate(0.0, 1.0, [&](double t) {
+    return keptRule(order).integrate(0.0, 1.0, [&](double t) {
         const double cosVL = inPlane + across * std::cos(kPi * (1.0 - t * t));
         return 2.0 * t * schlickWeight(std::sqrt(std::fmax(0.0, 0.5 * (1.0 + cosVL))));
     });
@@ -108,8 +100,8 @@ double azimuthalSchlick(double mu, double nu, int order) {
 
 double integrateDiffuse(double mu) {
     // nu = x^2 gathers nodes at the horizon: 2 nu dnu = 4 x^3 dx.
-    return rule(64).integrate(0.0, 1.0,
-                              [&](double x) { return 4.0 * x * x * x * azimuthalSchlick(mu, x * x); });
+    return keptRule(64).integrate(0.0, 1.0,
+                                  [&](double x) { return 4.0 * x * x * x * azimuthalSchlick(mu, x * x); });
 }
 
 double mendFactor(double specular, double f0Max, SpecularIntegrals integrals, double c) {

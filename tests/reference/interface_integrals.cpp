@@ -1,19 +1,11 @@
 #include "tests/reference/interface_integrals.h"
 #include "tests/reference/quadrature.h"
 #include <algorithm>
-#include <map>
 #include <vector>
 
 namespace irradia::reference {
 
 namespace {
-
-const QuadratureRule& rule(int n) {
-    thread_local std::map<int, QuadratureRule> rules;
-    auto found = rules.find(n);
-    if (found == rules.end()) found = rules.emplace(n, gaussLegendre(n)).first;
-    return found->second;
-}
 
 struct Sums {
     Vec3 reflected{0.0};
@@ -31,7 +23,7 @@ struct Sums {
 // Over [from, to], nodes gathered at both ends: x = t^2 (3 - 2 t) makes square roots there smooth.
 template <typename Function>
 Sums integratePanel(int order, double from, double to, const Function& f) {
-    const QuadratureRule& nodes = rule(order);
+    const QuadratureRule& nodes = keptRule(order);
     Sums sum;
     for (size_t i = 0; i < nodes.nodes.size(); ++i) {
         const double t = nodes.nodes[i], x = t * t * (3.0 - 2.0 * t);

@@ -1,5 +1,6 @@
 #include "tests/reference/quadrature.h"
 #include "tests/reference/math.h"
+#include <map>
 #include <utility>
 
 namespace irradia::reference {
@@ -32,6 +33,13 @@ QuadratureRule gaussLegendre(int n) {
         rule.weights.push_back(1.0 / ((1.0 - x * x) * slope * slope)); // DLMF 3.5.22, halved for [0, 1]
     }
     return rule;
+}
+
+const QuadratureRule& keptRule(int n) {
+    thread_local std::map<int, QuadratureRule> rules;
+    auto found = rules.find(n);
+    if (found == rules.end()) found = rules.emplace(n, gaussLegendre(n)).first;
+    return found->second;
 }
 
 } // namespace irradia::reference

@@ -22,4 +22,7 @@ struct QuadratureRule {
 // The n-point rule on [0, 1], exact for polynomials of degree 2 n - 1.
 QuadratureRule gaussLegendre(int n);
 
+// The same, made once for a thread.
+const QuadratureRule& keptRule(int n);
+
 } // namespace irradia::reference

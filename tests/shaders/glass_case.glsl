@@ -27,7 +27,7 @@ GlassCase loadCase(uint index) {
     vec3 f0 = c1.rgb * (isSheet ? 1.0 : pairReflectance(c3.w, c3.x));
     c.bsdf = makeBsdf(c0.rgb, c0.w, c2.w, f0, c1.w);
     c.bsdf.diffuse *= 1.0 - c3.y;
-    c.glass = makeGlass(c0.rgb, c0.w, c3.y, f0, c1.w, c3.x, isSheet);
+    c.glass = makeGlass(c0.rgb, c0.w, c3.y, f0, c1.w, awayFromOne(c3.x), isSheet);
     c.v = c2.xyz;
     c.roughness = c2.w;
     vec3 abc = reflectanceAt(thinCosine(c.glass, c.v.z), c.roughness);
@@ -46,7 +46,7 @@ vec2 towards(GlassCase c, vec3 l) {
 
 BsdfValue evaluateCase(GlassCase c, vec3 l) {
     vec2 t = towards(c, l);
-    BsdfValue value = evaluateGlass(c.bsdf, c.glass, c.view, c.v, l, t.x, t.y);
+    BsdfValue value = evaluateGlass(c.bsdf, c.glass, c.view, c.v, l, t.x, t.y, false);
     return BsdfValue(kRadianceFault * value.fCos, kPdfFault * value.pdf);
 }
 

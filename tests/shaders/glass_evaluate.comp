@@ -19,7 +19,7 @@ void main() {
     vec3 l = uintBitsToFloat(loadQuad(directions, i).xyz);
     BsdfValue value = evaluateCase(c, l);
     vec2 t = towards(c, l);
-    vec3 punctual = evaluateGlassPunctual(c.bsdf, c.glass, c.view, c.v, l, t.x, t.y);
+    vec3 punctual = evaluateGlass(c.bsdf, c.glass, c.view, c.v, l, t.x, t.y, true).fCos;
     storeQuad(results, 4u * i, floatBitsToUint(vec4(value.fCos, value.pdf)));
     storeQuad(results, 4u * i + 1u, floatBitsToUint(vec4(t, c.view.pDiffuse, c.view.pFacets)));
     storeQuad(results, 4u * i + 2u, floatBitsToUint(vec4(c.view.pReturn, c.view.multiple, c.glass.eta, c.view.transmits)));

@@ -44,7 +44,7 @@ void main() {
 
     Bsdf b = makeBsdf(c0.rgb, c0.w, roughness, c1.rgb, c1.w);
     b.diffuse *= 1.0 - c2.w;
-    Glass g = makeGlass(c0.rgb, c0.w, c2.w, c1.rgb, c1.w, eta, u[5].w < 0.3);
+    Glass g = makeGlass(c0.rgb, c0.w, c2.w, c1.rgb, c1.w, awayFromOne(eta), u[5].w < 0.3);
     vec3 abc = reflectanceAt(thinCosine(g, v.z), roughness);
     float mendV = glassMend(b, g, v.z, abc);
     GlassView view = prepareGlass(b, g, v, abc, mendV, glassLossesOf(g, b.alpha, v, abc));
@@ -57,8 +57,8 @@ void main() {
         vec3 abcL = reflectanceAt(thinCosine(g, abs(l.z)), roughness);
         float mend = min(mendV, glassMend(b, g, abs(l.z), abcL));
         float loss = glassLossTowards(g, b.alpha, l, abcL);
-        BsdfValue value = evaluateGlass(b, g, view, v, l, mend, loss);
-        vec3 punctual = evaluateGlassPunctual(b, g, view, v, l, mend, loss);
+        BsdfValue value = evaluateGlass(b, g, view, v, l, mend, loss, false);
+        vec3 punctual = evaluateGlass(b, g, view, v, l, mend, loss, true).fCos;
         count += wrong(vec4(value.fCos, value.pdf)) + wrong(vec4(punctual, loss));
         if (k == 1u && value.pdf > 0.0) largest = maxComponent(value.fCos) / value.pdf;
     }

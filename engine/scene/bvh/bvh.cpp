@@ -2,7 +2,7 @@
 #include "engine/error.h"
 #include "engine/scene/bvh/binary.h"
 #include "engine/scene/bvh/collapse.h"
-#include "engine/scene/packed_scene.h"
+#include "engine/scene/transparency.h"
 #include <algorithm>
 #include <bit>
 #include <cmath>

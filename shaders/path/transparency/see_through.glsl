@@ -3,6 +3,7 @@
 #ifndef IRRADIA_PATH_SEE_THROUGH_GLSL
 #define IRRADIA_PATH_SEE_THROUGH_GLSL
 #include "path/coverage.glsl"
+#include "path/material.glsl"
 
 // Of sheets; what is rougher scatters the light it transmits.
 bool isClear(float roughness) { return square(roughness) <= kMinAlpha; }
@@ -16,27 +17,11 @@ vec3 smoothNormal(uint primitive, vec2 b) {
 
 // Of what is there of a sheet: its colour less what it reflects, where it is clear.
 vec3 sheetTransmittance(uint material, TriangleAttributes a, float cosine) {
-    uint at = material * kMaterialQuads;
-    vec4 m0 = uintBitsToFloat(loadQuad(materials, at));
-    float roughness = uintBitsToFloat(loadQuad(materials, at + 1u).w);
-    vec4 m2 = uintBitsToFloat(loadQuad(materials, at + 2u));
-    float transmission = uintBitsToFloat(loadQuad(materials, at + 6u).w);
-    uvec4 codes = loadQuad(materials, at + 4u);
-    uvec4 codes2 = loadQuad(materials, at + 5u);
-    vec3 base = min(m0.rgb * a.color.rgb, vec3(1.0));
-    if ((kTextureMask & kBaseColorTexture) != 0u) base *= sampleTexture(codes.x, a).rgb;
-    if ((kTextureMask & kMetallicRoughnessTexture) != 0u) {
-        vec4 texel = sampleTexture(codes.y, a);
-        roughness *= texel.g;
-        m0.w *= texel.b;
-    }
-    if ((kTextureMask & kSpecularTexture) != 0u) m2.w *= sampleTexture(codes2.x, a).a;
-    if ((kTextureMask & kSpecularColorTexture) != 0u) m2.rgb *= sampleTexture(codes2.y, a).rgb;
-    if ((kTextureMask & kTransmissionTexture) != 0u) transmission *= sampleTexture(codes2.z, a).r;
-    float f0 = min(maxComponent(m2.rgb), 1.0);
-    float reflected = m2.w * mix(f0, 1.0, schlickWeight(cosine));
-    vec3 transmitted = base * ((1.0 - clamp(m0.w, 0.0, 1.0)) * transmission * (1.0 - reflected));
-    return isClear(roughness) ? transmitted : vec3(0.0);
+    MaterialPoint m = loadMaterial(material, a);
+    float f0 = min(maxComponent(m.f0), 1.0);
+    float reflected = m.specular * mix(f0, 1.0, schlickWeight(cosine));
+    vec3 transmitted = m.base * ((1.0 - m.metallic) * m.transmission * (1.0 - reflected));
+    return isClear(m.roughness) ? transmitted : vec3(0.0);
 }
 
 struct SeeThrough {

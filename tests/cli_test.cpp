@@ -1,5 +1,6 @@
 // The program as a user meets it: results on stdout, one sentence on stderr, an exit code.
 #include "engine/image/image.h"
+#include "tests/support/program_run.h"
 #include "tests/support/temporary_folder.h"
 #include <algorithm>
 #include <catch2/catch_test_macros.hpp>
@@ -12,39 +13,10 @@
 #include <sys/wait.h>
 
 using namespace irradia;
-using irradia::test::TemporaryFolder;
+using namespace irradia::test;
 using nlohmann::json;
 
 namespace {
-
-struct Run {
-    int code = -1;
-    std::string out;
-    std::string err;
-};
-
-std::string text(const std::vector<uint8_t>& bytes) {
-    return {bytes.begin(), bytes.end()};
-}
-
-Run irradiaProgram(const std::string& arguments) {
-    const TemporaryFolder folder;
-    const std::string command = IRRADIA_BIN_DIR "/irradia " + arguments + " >" + (folder / "out").string() +
-                                " 2>" + (folder / "err").string();
-    const int status = std::system(command.c_str());
-    REQUIRE(WIFEXITED(status));
-    return {WEXITSTATUS(status), text(folder.read("out")), text(folder.read("err"))};
-}
-
-// A run that ends in one sentence, which names a thing.
-void checkRefused(const std::string& arguments, int code, const std::string& named) {
-    const Run run = irradiaProgram(arguments);
-    INFO(arguments << "\n" << run.err);
-    CHECK(run.code == code);
-    CHECK(run.err.starts_with("irradia: "));
-    CHECK(run.err.find(named) != std::string::npos);
-    CHECK(std::ranges::count(run.err, '\n') == 1);
-}
 
 // A folder with a picture of 1, one of 1.1, and others.
 class Pictures : public TemporaryFolder {
@@ -84,14 +56,14 @@ bool near(double value, double expected) {
 } // namespace
 
 TEST_CASE("help and version go to stdout") {
-    const Run help = irradiaProgram("--help");
+    const ProgramRun help = irradiaProgram("--help");
     CHECK(help.code == 0);
     CHECK(help.err.empty());
     for (const char* name : {"render", "compare", "devices", "bench"})
         CHECK(help.out.find(std::string("\n  ") + name + " ") != std::string::npos);
     for (const std::string command : {"", "render ", "bench "})
         CHECK(irradiaProgram(command + "--help").out.find("later") == std::string::npos);
-    const Run version = irradiaProgram("--version");
+    const ProgramRun version = irradiaProgram("--version");
     CHECK(version.code == 0);
     CHECK(version.out.starts_with("irradia "));
     CHECK(irradiaProgram("compare --help").code == 0);
@@ -202,13 +174,13 @@ TEST_CASE("outputs are refused before the work where they could not be what was 
 
 TEST_CASE("compare prints a table or JSON") {
     const Pictures pictures;
-    const Run table = irradiaProgram(pictures.pair("more.exr", "one.exr"));
+    const ProgramRun table = irradiaProgram(pictures.pair("more.exr", "one.exr"));
     CHECK(table.code == 0);
     CHECK(table.err.empty());
     for (const char* name : {"mse ", "relmse ", "mape ", "mean_ratio ", "flip ", "nonfinite "})
         CHECK(table.out.find(name) != std::string::npos);
 
-    const Run run = irradiaProgram(pictures.pair("more.exr", "one.exr") + "--json");
+    const ProgramRun run = irradiaProgram(pictures.pair("more.exr", "one.exr") + "--json");
     CHECK(run.code == 0);
     const json result = json::parse(run.out);
     CHECK(result.size() == 6);
@@ -229,15 +201,16 @@ TEST_CASE("compare fails above a limit and only above it") {
     checkRefused(differing + "--fail-above mse=0.009", 1, "mse 0.01 is above 0.009");
     checkRefused(differing + "--fail-above mse=1 --fail-above mape=0.05", 1, "mape");
     // The option may stand before the files, and the numbers are printed all the same.
-    const Run first = irradiaProgram("compare --json --fail-above mean_ratio=1 " + pictures.at("more.exr") +
-                                     " " + pictures.at("one.exr"));
+    const ProgramRun first = irradiaProgram("compare --json --fail-above mean_ratio=1 " +
+                                            pictures.at("more.exr") + " " + pictures.at("one.exr"));
     CHECK(first.code == 1);
     CHECK(near(json::parse(first.out).at("mean_ratio"), 1.1));
 }
 
 TEST_CASE("a picture of NaN passes no limit") {
     const Pictures pictures;
-    const Run run = irradiaProgram(pictures.pair("nan.exr", "one.exr") + "--json --fail-above mse=1000000");
+    const ProgramRun run =
+        irradiaProgram(pictures.pair("nan.exr", "one.exr") + "--json --fail-above mse=1000000");
     CHECK(run.code == 1);
     const json result = json::parse(run.out);
     CHECK(result.at("mse").is_null());
@@ -251,12 +224,12 @@ TEST_CASE("a value that is not finite fails every metric, and the pixels are cou
     image.channels["B"][5] = image.channels["B"][7] = std::numeric_limits<float>::quiet_NaN();
     writeExr(pictures.at("holes.exr"), image);
     const std::string holes = pictures.pair("holes.exr", "one.exr");
-    const Run told = irradiaProgram(holes + "--json");
+    const ProgramRun told = irradiaProgram(holes + "--json");
     CHECK(told.code == 0); // no limit was given
     CHECK(told.err == "warning: 2 of 12 pixels are not finite and in no mean\n");
     CHECK(json::parse(told.out).at("nonfinite") == 3);
     for (const char* metric : {"mse", "relmse", "mape", "mean_ratio", "flip"}) {
-        const Run run = irradiaProgram(holes + "--fail-above " + metric + "=1000");
+        const ProgramRun run = irradiaProgram(holes + "--fail-above " + metric + "=1000");
         CHECK(run.code == 1);
         CHECK(run.err.find(std::string(metric) + " fails by 2 pixels that are not finite") !=
               std::string::npos);
@@ -271,7 +244,7 @@ TEST_CASE("compare warns of a reference whose own noise is in the difference") {
     const auto errors = [&](float variance) {
         image.setRgb("Variance", std::vector<glm::vec3>(12, glm::vec3(variance)));
         writeExr(pictures.at("noisy.exr"), image);
-        const Run run = irradiaProgram(pictures.pair("more.exr", "noisy.exr"));
+        const ProgramRun run = irradiaProgram(pictures.pair("more.exr", "noisy.exr"));
         CHECK(run.code == 0);
         return run.err;
     };
@@ -288,7 +261,7 @@ TEST_CASE("compare takes layers and says what it measures") {
     writeExr(pictures.at("layers.exr"), image);
     CHECK(irradiaProgram(pictures.pair("layers.exr:glow", "one.exr") + "--fail-above mse=0").code == 0);
     CHECK(irradiaProgram(pictures.pair("layers.exr", "one.exr") + "--fail-above mse=0").code == 1);
-    const Run help = irradiaProgram("compare --help");
+    const ProgramRun help = irradiaProgram("compare --help");
     for (const char* words :
          {"mean of (t - r)^2 / (r^2 + 0.01)", "mean of |t - r| / (|r| + 0.01)", "LDR-FLIP"})
         CHECK(help.out.find(words) != std::string::npos);
@@ -299,8 +272,8 @@ TEST_CASE("--strict makes warnings about the scene errors, before anything is re
     const std::string dark = R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": []}]})";
     const std::filesystem::path scene =
         folder.write("dark.gltf", {reinterpret_cast<const uint8_t*>(dark.data()), dark.size()});
-    const Run run = irradiaProgram("render " + scene.string() + " --method pt --strict -o " +
-                                   (folder / "a.exr").string());
+    const ProgramRun run = irradiaProgram("render " + scene.string() + " --method pt --strict -o " +
+                                          (folder / "a.exr").string());
     CHECK(run.code == 65);
     CHECK(run.err.find("--strict allows no warning, and there is 1: the scene has no light") !=
           std::string::npos);
@@ -331,7 +304,7 @@ TEST_CASE("a closed stdout is an error") {
 }
 
 TEST_CASE("devices are listed, or their absence is") {
-    const Run run = irradiaProgram("devices --json");
+    const ProgramRun run = irradiaProgram("devices --json");
     const json devices = json::parse(run.out).at("devices");
     CHECK(run.code == (devices.empty() ? 69 : 0));
     for (const json& device : devices) {
@@ -341,7 +314,7 @@ TEST_CASE("devices are listed, or their absence is") {
         CHECK(device.at("subgroup_size").get<int>() > 0);
         CHECK(device.at("memory_bytes").get<uint64_t>() > 0);
     }
-    const Run table = irradiaProgram("devices");
+    const ProgramRun table = irradiaProgram("devices");
     CHECK(std::ranges::count(table.out, '\n') == std::ptrdiff_t(devices.empty() ? 0 : devices.size() + 1));
 }
 
@@ -356,10 +329,10 @@ TEST_CASE("no driver is 69 and a sentence") {
 
 TEST_CASE("render tells its progress as JSON") {
     const TemporaryFolder folder;
-    const Run run = irradiaProgram("render " IRRADIA_BIN_DIR
-                                   "/../scenes/cornell-box.glb --method nrc --warmup 2 --size 8x8 --frames 3 "
-                                   "--max-bounces 1 --progress json -o " +
-                                   (folder / "a.exr").string());
+    const ProgramRun run = irradiaProgram(
+        "render " IRRADIA_BIN_DIR "/../scenes/cornell-box.glb --method nrc --warmup 2 --size 8x8 --frames 3 "
+        "--max-bounces 1 --progress json -o " +
+        (folder / "a.exr").string());
     INFO(run.err);
     REQUIRE(run.code == 0);
     std::istringstream lines(run.err);

@@ -14,15 +14,10 @@ using namespace irradia::test;
 
 namespace {
 
+constexpr uint32_t kBounces = 14; // what they cut is less than 1e-4
+
 Device& device() {
     return deviceWith(QuadAccess::Texel);
-}
-
-PathTracerOptions picture(uint32_t size) {
-    PathTracerOptions options;
-    options.width = options.height = size;
-    options.maxBounces = 14; // what it cuts is less than 1e-4
-    return options;
 }
 
 const Scene& sphere() {
@@ -65,7 +60,7 @@ constexpr double kTolerance = 0.005;
 
 TEST_CASE("an oracle gives the furnace's radiance whatever the spread at which paths end") {
     for (const float c : {-1.0f, 1e-4f, 1e-2f, 1.0f, 10.0f}) {
-        NrcOptions options = oracleOptions(picture(256), 0.5f);
+        NrcOptions options = oracleOptions(picture(256, kBounces), 0.5f);
         options.config.spread = c;
         INFO("c = " << c);
         CHECK(std::abs(mean(withOracle(options).render(kCamera, kFrames).mean) - 1.0) < kTolerance);
@@ -79,7 +74,7 @@ TEST_CASE(
         // A tenth too much of what half ^ depth of all light passes through.
         const double tooMuch = 0.05 * std::pow(0.5, depth);
         for (const bool bright : {false, true}) {
-            NrcOptions options = oracleOptions(picture(256), bright ? 0.55f : 0.5f);
+            NrcOptions options = oracleOptions(picture(256, kBounces), bright ? 0.55f : 0.5f);
             options.config.endDepth = depth;
             const double seen = mean(withOracle(options).render(kCamera, kFrames).mean);
             CHECK(std::abs(seen - (bright ? 1.0 + tooMuch : 1.0)) < kTolerance);
@@ -97,7 +92,7 @@ TEST_CASE("targets are the furnace's scattered radiance at every vertex of train
     for (const Case& c : {Case{0.01f, 0.0f}, Case{0.01f, 1.0f}, Case{1.0f, 0.25f}, Case{kNever, 0.0f}}) {
         INFO("c = " << c.spread << ", unbiased share " << c.unbiasedShare);
         for (const bool bright : {false, true}) {
-            NrcOptions options = oracleOptions(picture(256), bright ? 0.6f : 0.5f, 128 * 128);
+            NrcOptions options = oracleOptions(picture(256, kBounces), bright ? 0.6f : 0.5f, 128 * 128);
             options.config.spread = options.config.trainingSpread = c.spread;
             options.config.unbiasedShare = c.unbiasedShare;
             OracleRenderer oracle = withOracle(options);
@@ -132,7 +127,7 @@ TEST_CASE("targets hold the light of a point once, whether paths end in the cach
     packAreaTable(packed);
     const GpuScene gpu = uploadScene(device(), packed, buildBvh(scene));
     for (const float unbiasedShare : {0.0f, 1.0f}) {
-        NrcOptions options = oracleOptions(picture(192), 0.5f, 32768, true);
+        NrcOptions options = oracleOptions(picture(192, kBounces), 0.5f, 32768, true);
         options.config.endDepth = 0;
         options.config.trainingSpread = -1.0f;
         options.config.unbiasedShare = unbiasedShare;
@@ -156,7 +151,7 @@ TEST_CASE("targets of paths from the surfaces are the furnace's scattered radian
     for (const Case& c : {Case{-1.0f, 0.0f}, Case{0.01f, 0.0625f}, Case{0.01f, 1.0f}, Case{30.0f, 0.25f}}) {
         INFO("c = " << c.spread << ", unbiased share " << c.unbiasedShare);
         for (const bool bright : {false, true}) {
-            NrcOptions options = oracleOptions(picture(192), bright ? 0.6f : 0.5f, 32768, true);
+            NrcOptions options = oracleOptions(picture(192, kBounces), bright ? 0.6f : 0.5f, 32768, true);
             options.config.endDepth = 0; // of what is seen
             options.config.trainingSpread = c.spread;
             options.config.unbiasedShare = c.unbiasedShare;
@@ -186,7 +181,7 @@ TEST_CASE("targets of paths from the surfaces are the furnace's scattered radian
 
 TEST_CASE("one path of each tile trains, another in each frame") {
     constexpr uint32_t kTiles = 9 * 10; // neither side divides the picture's
-    NrcOptions options = oracleOptions(picture(64), 0.5f, kTiles);
+    NrcOptions options = oracleOptions(picture(64, kBounces), 0.5f, kTiles);
     options.config.endDepth = 0;
     options.config.trainingSpread = -1.0f;
     OracleRenderer oracle = withOracle(options);

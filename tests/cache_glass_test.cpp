@@ -5,6 +5,7 @@
 #include "engine/scene/lights/area_table.h"
 #include "tests/reference/glass_scenes.h"
 #include "tests/reference/simple_scenes.h"
+#include "tests/support/gpu_render.h"
 #include "tests/support/oracle_cache.h"
 #include "tests/support/validated_device.h"
 #include <catch2/catch_test_macros.hpp>
@@ -19,13 +20,6 @@ const Camera kCamera = reference::lookAt({0.1f, 0.2f, 0.0f}, {0.0f, 0.0f, 1.0f},
 
 Device& device() {
     return deviceWith(QuadAccess::Texel);
-}
-
-PathTracerOptions picture(uint32_t size, uint32_t maxBounces = 24) {
-    PathTracerOptions options;
-    options.width = options.height = size;
-    options.maxBounces = maxBounces;
-    return options;
 }
 
 Scene sphereOf(const glm::vec3& albedo, const glm::vec3& emission) {
@@ -78,7 +72,7 @@ TEST_CASE("nothing of the cache is seen in clear glass, wherever paths end") {
     for (const Case& c : {Case{-1.0f, gpu::kNoDepth}, Case{0.01f, gpu::kNoDepth}, Case{1.0f, gpu::kNoDepth},
                           Case{10.0f, 0}, Case{10.0f, 1}, Case{10.0f, 3}}) {
         INFO("c = " << c.spread << ", end depth " << c.endDepth);
-        NrcOptions options = oracleOptions(picture(192), 0.5f);
+        NrcOptions options = oracleOptions(picture(192, 24), 0.5f);
         options.config.spread = c.spread;
         if (c.endDepth != gpu::kNoDepth) options.config.endDepth = c.endDepth;
         OracleRenderer oracle(device(), gpu, sceneBounds(scene), options);
@@ -87,7 +81,7 @@ TEST_CASE("nothing of the cache is seen in clear glass, wherever paths end") {
     }
     // An oracle a tenth too bright, asked at the first vertex that is one, shifts all by as much: glass is in
     // its way as it is in the light's. Were glass asked, it would show the oracle's 1/2 alone.
-    NrcOptions options = oracleOptions(picture(192), 0.55f);
+    NrcOptions options = oracleOptions(picture(192, 24), 0.55f);
     options.config.endDepth = 0;
     OracleRenderer oracle(device(), gpu, sceneBounds(scene), options);
     CHECK(std::abs(mean(oracle.render(kCamera, 6).mean) - 1.05) < 0.005);
@@ -98,7 +92,7 @@ TEST_CASE("targets of paths through glass are what the furnace scatters") {
     const GpuScene gpu = upload(scene);
     for (const float unbiasedShare : {0.0f, 1.0f}) {
         INFO("unbiased share " << unbiasedShare);
-        NrcOptions options = oracleOptions(picture(192), 0.5f, 128 * 128);
+        NrcOptions options = oracleOptions(picture(192, 24), 0.5f, 128 * 128);
         options.config.spread = options.config.trainingSpread = 0.01f;
         options.config.unbiasedShare = unbiasedShare;
         OracleRenderer oracle(device(), gpu, sceneBounds(scene), options);
@@ -127,7 +121,7 @@ TEST_CASE("targets hold of a lamp's light what a screen lets through") {
     const GpuScene gpu = upload(scene);
     for (const float unbiasedShare : {0.0f, 1.0f}) {
         INFO("unbiased share " << unbiasedShare);
-        NrcOptions options = oracleOptions(picture(192), 0.5f, 32768);
+        NrcOptions options = oracleOptions(picture(192, 24), 0.5f, 32768);
         options.config.endDepth = 0;
         options.config.trainingSpread = -1.0f;
         options.config.unbiasedShare = unbiasedShare;

@@ -17,13 +17,6 @@ Device& device() {
     return deviceWith(QuadAccess::Texel);
 }
 
-PathTracerOptions picture(uint32_t size, uint32_t maxBounces) {
-    PathTracerOptions options;
-    options.width = options.height = size;
-    options.maxBounces = maxBounces;
-    return options;
-}
-
 // ---- mirrors ----
 
 // A metal of the given roughness in front of the camera, in which stripes

@@ -10,6 +10,7 @@
 #include <cmath>
 
 using namespace irradia;
+using test::picture;
 
 namespace {
 
@@ -17,13 +18,6 @@ constexpr int kSize = 32;
 
 Device& device() {
     return test::deviceWith(QuadAccess::Texel);
-}
-
-PathTracerOptions picture(uint32_t size, uint32_t maxBounces) {
-    PathTracerOptions options;
-    options.width = options.height = size;
-    options.maxBounces = maxBounces;
-    return options;
 }
 
 // By the path tracer on the device, and by the reference.

@@ -8,6 +8,7 @@
 #include <cmath>
 
 using namespace irradia;
+using test::picture;
 
 namespace {
 
@@ -19,14 +20,6 @@ Device& device() {
         return new Device(options);
     }();
     return *shared;
-}
-
-PathTracerOptions picture(uint32_t size, uint32_t maxBounces) {
-    PathTracerOptions options;
-    options.width = size;
-    options.height = size;
-    options.maxBounces = maxBounces;
-    return options;
 }
 
 double meanLuminance(const FilmImage& film) {

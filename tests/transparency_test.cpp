@@ -8,6 +8,7 @@
 #include <cmath>
 
 using namespace irradia;
+using test::picture;
 
 namespace {
 
@@ -15,13 +16,6 @@ constexpr float kClear = 0.96f; // what a sheet of index 1.5 transmits straight 
 
 Device& device() {
     return test::deviceWith(QuadAccess::Texel);
-}
-
-PathTracerOptions picture(uint32_t size, uint32_t maxBounces) {
-    PathTracerOptions options;
-    options.width = options.height = size;
-    options.maxBounces = maxBounces;
-    return options;
 }
 
 glm::dvec3 meanOf(const FilmImage& film) {

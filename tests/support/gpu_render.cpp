@@ -2,6 +2,13 @@
 
 namespace irradia::test {
 
+PathTracerOptions picture(uint32_t size, uint32_t maxBounces) {
+    PathTracerOptions options;
+    options.width = options.height = size;
+    options.maxBounces = maxBounces;
+    return options;
+}
+
 GpuRenderer::GpuRenderer(Device& device, const Scene& scene)
     : device_(device)
     , scene_(uploadScene(device, packScene(scene), buildBvh(scene))) {}

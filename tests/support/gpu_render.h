@@ -7,6 +7,9 @@
 
 namespace irradia::test {
 
+// Of size x size pixels.
+PathTracerOptions picture(uint32_t size, uint32_t maxBounces);
+
 // A scene on a device; renders any number of pictures of it.
 class GpuRenderer {
 public:
